@@ -3,7 +3,7 @@ package candela.aov
 import candela.base.loop
 import candela.io.{CheckedInput, CheckedOutput}
 import candela.color.Rgb
-import candela.film.{Development, ExactSums, SplatFilm}
+import candela.film.{Development, ExactSums, PixelBounds, SplatFilm}
 import candela.image.Image
 
 /** Accumulators of the requested AOVs, in addition to [[candela.film.Film]]. Not synchronised
@@ -14,15 +14,14 @@ import candela.image.Image
   * @param groups names of the light groups, if the samples' light is divided
   */
 final class LayerFilm(
-    x0: Int,
-    y0: Int,
-    x1: Int,
-    y1: Int,
+    bounds: PixelBounds,
     layers: Vector[ImageLayer],
     groups: Option[Vector[String]] = None
 ):
-  private val width = x1 - x0
-  private val height = y1 - y0
+  private val x0 = bounds.x0
+  private val y0 = bounds.y0
+  private val width = bounds.width
+  private val height = bounds.height
 
   // Per pixel: sample count, total weight, weight of samples that hit a surface; then the tallies
   private val statistics = layers.map(_.statisticOf(groups.getOrElse(Vector.empty)))

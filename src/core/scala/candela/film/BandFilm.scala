@@ -11,9 +11,11 @@ import candela.image.Image
   * A band's value is the mean over the samples within it, weighted by the filter and the density of
   * wavelengths.
   */
-final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
-  private val width = x1 - x0
-  private val height = y1 - y0
+final class BandFilm(bands: SpectralBands, bounds: PixelBounds):
+  private val x0 = bounds.x0
+  private val y0 = bounds.y0
+  private val width = bounds.width
+  private val height = bounds.height
   private val count = bands.channels.size
 
   // For each pixel and band: weighted light, sum of weights

@@ -64,7 +64,8 @@ private final class LevelBlock(bounds: PixelBounds):
     if levelSums == null then false
     else
       loop(bounds.height): y =>
-        val offset = 3 * ((bounds.y0 + y - film.y0) * film.width + bounds.x0 - film.x0)
+        val offset =
+          3 * ((bounds.y0 + y - film.y0) * film.width + bounds.x0 - film.x0)
         levelSums.addTo(to, offset, 3 * y * bounds.width, 3 * bounds.width)
       true
 

@@ -7,7 +7,7 @@ import candela.image.Image
 
 import java.util.Arrays
 
-/** Accumulates camera samples for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
+/** Accumulates camera samples for the pixels of `bounds`.
   *
   * Not synchronised: one worker at a time owns a pixel. Sums are exact: a film may be divided and
   * added in any order.
@@ -19,20 +19,19 @@ import java.util.Arrays
   * @param volume what a sample adds to the weights of all pixels
   */
 final class Film(
-    val x0: Int,
-    val y0: Int,
-    val x1: Int,
-    val y1: Int,
+    val bounds: PixelBounds,
     val splats: Option[SplatFilm] = None,
     val shares: Option[SampleShares] = None,
     val bands: Option[BandFilm] = None,
     val levels: Option[BrightnessLevels] = None,
     volume: Double = 1
 ):
-  require(x1 > x0 && y1 > y0, s"film must not be empty, found [$x0, $x1) × [$y0, $y1)")
+  require(bounds.width > 0 && bounds.height > 0, s"film must not be empty, found $bounds")
 
-  val width: Int = x1 - x0
-  val height: Int = y1 - y0
+  private val x0 = bounds.x0
+  private val y0 = bounds.y0
+  val width: Int = bounds.width
+  val height: Int = bounds.height
 
   // For each pixel, row by row: weighted red, green, blue, sum of weights.
   private val sums = ExactSums(
@@ -50,17 +49,14 @@ final class Film(
 
   /** A copy of the current state, for [[deltaSince]]. */
   def copy(): Film =
-    val film = Film(x0, y0, x1, y1, splats.map(_.copy()), shares.map(_.copy()))
+    val film = Film(bounds, splats.map(_.copy()), shares.map(_.copy()))
     film.sums.add(sums)
     film
 
   /** The delta: samples added since `earlier` was copied. */
   def deltaSince(earlier: Film): Film =
     val added = Film(
-      x0,
-      y0,
-      x1,
-      y1,
+      bounds,
       splats.zip(earlier.splats).map(_.deltaSince(_)),
       shares.zip(earlier.shares).map(_.deltaSince(_))
     )
@@ -134,7 +130,7 @@ final class Film(
     loop(height): y =>
       read(y, row)
       System.arraycopy(row, 0, result, 4 * width * y, 4 * width)
-    FireflyWeights(levels, PixelBounds(x0, y0, x1, y1), volume)(result)
+    FireflyWeights(levels, bounds, volume)(result)
     result
 
   private def read(y: Int, row: Array[Double]): Unit =

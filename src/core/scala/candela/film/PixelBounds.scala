@@ -15,4 +15,7 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
       Math.min(y1, other.y1)
     )
 
+  /** With so many more pixels on either side. */
+  def widened(x: Int, y: Int): PixelBounds = PixelBounds(x0 - x, y0 - y, x1 + x, y1 + y)
+
   def contains(x: Float, y: Float): Boolean = x >= x0 && x < x1 && y >= y0 && y < y1

@@ -18,10 +18,7 @@ import java.util.Arrays
   * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed. 2016, §7.9.2, eq. 7.12.
   */
 final class SampleShares private (
-    x0: Int,
-    y0: Int,
-    x1: Int,
-    y1: Int,
+    bounds: PixelBounds,
     private val blocks: Vector[SharedBlock]
 ):
   /** Adds samples; one for each worker.
@@ -31,7 +28,7 @@ final class SampleShares private (
   def pass(levels: Option[LevelPass] = None): SharedPass = SharedPass(blocks, levels.orNull)
 
   /** Pixels that the samples of each tile contribute to. */
-  def reached: Vector[PixelBounds] = blocks.map(b => PixelBounds(b.x0, b.y0, b.x1, b.y1))
+  def reached: Vector[PixelBounds] = blocks.map(_.bounds)
 
   /** Sets `row` to what the pixels of the film's row `y` hold: for each one weighted red, green,
     * blue, sum of weights.
@@ -40,26 +37,27 @@ final class SampleShares private (
     Arrays.fill(row, 0.0)
     val index = Arrays.binarySearch(cuts, y)
     val strip = if index >= 0 then index else -index - 2
-    if strip >= 0 && strip < strips.length then strips(strip).foreach(_.addTo(row, y, x0))
+    if strip >= 0 && strip < strips.length then strips(strip).foreach(_.addTo(row, y, bounds.x0))
 
   /** Rows at which blocks begin or end. Between two of them are the rows of a strip. */
   private lazy val cuts: Array[Int] =
-    blocks.flatMap(b => Vector(b.y0, b.y1)).distinct.sorted.toArray
+    blocks.flatMap(b => Vector(b.bounds.y0, b.bounds.y1)).distinct.sorted.toArray
 
   /** The blocks of each strip, in order: a film has a hundred thousand, a row a few hundred. */
   private lazy val strips: Array[Array[SharedBlock]] =
     val inStrip = Array.fill(cuts.length - 1)(Array.newBuilder[SharedBlock])
     for b <- blocks do
-      for s <- Arrays.binarySearch(cuts, b.y0) until Arrays.binarySearch(cuts, b.y1) do
+      for s <- Arrays.binarySearch(cuts, b.bounds.y0) until Arrays.binarySearch(cuts, b.bounds.y1)
+      do
         inStrip(s) += b
     inStrip.map(_.result())
 
-  def copy(): SampleShares = new SampleShares(x0, y0, x1, y1, blocks.map(_.copy()))
+  def copy(): SampleShares = new SampleShares(bounds, blocks.map(_.copy()))
 
   /** The delta since `earlier` was copied. */
   def deltaSince(earlier: SampleShares): SampleShares =
     val added = blocks.zip(earlier.blocks).map((now, before) => now.deltaSince(before))
-    new SampleShares(x0, y0, x1, y1, added)
+    new SampleShares(bounds, added)
 
   /** How many sums a tile has. */
   def size(tile: Int): Int = blocks(tile).sums.size
@@ -70,43 +68,34 @@ final class SampleShares private (
   def load(from: CheckedInput): Unit = blocks.foreach(_.sums.load(from))
 
 object SampleShares:
-  /** Covers the pixels x0 ≤ x < x1, y0 ≤ y < y1 of the film.
+  /** Covers these pixels of the film.
     *
     * @param tiles of all samples that contribute to these pixels; each has its own block
     */
   def apply(
-      x0: Int,
-      y0: Int,
-      x1: Int,
-      y1: Int,
+      bounds: PixelBounds,
       reach: FilterReach,
       tiles: Vector[PixelBounds]
   ): SampleShares =
     val blocks = tiles.map: t =>
-      SharedBlock(
-        Math.max(x0, t.x0 - reach.beyondX),
-        Math.max(y0, t.y0 - reach.beyondY),
-        Math.min(x1, t.x1 + reach.beyondX),
-        Math.min(y1, t.y1 + reach.beyondY),
-        reach
-      )
-    new SampleShares(x0, y0, x1, y1, blocks)
+      SharedBlock(t.widened(reach.beyondX, reach.beyondY).intersection(bounds), reach)
+    new SampleShares(bounds, blocks)
 
-/** Accumulators of one tile for the pixels x0 ≤ x < x1, y0 ≤ y < y1: those of the tile and those
+/** Accumulators of one tile for the pixels of `bounds`: those of the tile and those
   * within the filter's radius around it. One worker at a time owns it.
   */
 private final class SharedBlock(
-    val x0: Int,
-    val y0: Int,
-    val x1: Int,
-    val y1: Int,
+    val bounds: PixelBounds,
     val reach: FilterReach
 ):
-  def width: Int = x1 - x0
-  def height: Int = y1 - y0
+  val x0: Int = bounds.x0
+  val y0: Int = bounds.y0
+  private val x1 = bounds.x1
+  private val y1 = bounds.y1
+  val width: Int = bounds.width
 
   // For each pixel, row by row: weighted red, green, blue, sum of weights
-  val sums = ExactSums(Math.multiplyExact(4, Math.multiplyExact(width, height)))
+  val sums = ExactSums(Math.multiplyExact(4, Math.multiplyExact(width, bounds.height)))
 
   // Pixel range that a sample at (x, y) contributes to, in film pixels
   def left(x: Float): Int = Math.max(x0, Math.ceil(x - 0.5 - reach.radiusX).toInt)
@@ -119,7 +108,7 @@ private final class SharedBlock(
     sums.addTo(row, 4 * (x0 - filmX), 4 * (y - y0) * width, 4 * width)
 
   def copy(): SharedBlock =
-    val block = SharedBlock(x0, y0, x1, y1, reach)
+    val block = SharedBlock(bounds, reach)
     block.sums.add(sums)
     block
 

@@ -23,10 +23,7 @@ import java.util.concurrent.atomic.LongAdder
   * @param strategies whose light is kept beside the image
   */
 final class SplatFilm(
-    x0: Int,
-    y0: Int,
-    x1: Int,
-    y1: Int,
+    bounds: PixelBounds,
     filter: Filter,
     pixels: Double,
     basis: ColorBasis,
@@ -36,8 +33,12 @@ final class SplatFilm(
     strategies: Int = 0
 ) extends Splats:
   import SplatFilm.*
-  private val width = x1 - x0
-  private val height = y1 - y0
+  private val x0 = bounds.x0
+  private val y0 = bounds.y0
+  private val x1 = bounds.x1
+  private val y1 = bounds.y1
+  private val width = bounds.width
+  private val height = bounds.height
   private val clamps = limits.toArray
   private val spectrum: SpectralBands | Null = bands.orNull
   private val volume = filter.integral
@@ -163,7 +164,7 @@ final class SplatFilm(
     eachPixel(pixel => loop(channels)(channel => f(channels * pixel + channel)))
 
   def copy(): SplatFilm =
-    val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limits, groups, bands, strategies)
+    val film = SplatFilm(bounds, filter, pixels, basis, limits, groups, bands, strategies)
     eachNumber: i =>
       film.coarse(i) = coarseOf(i)
       film.fine(i) = fineOf(i)

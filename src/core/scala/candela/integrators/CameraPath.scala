@@ -93,6 +93,32 @@ abstract class CameraPath(
       contribution = extension.meetEnvironment
     )
 
+  /** Adds light that the surface emits, by `add`: its radiance and weight. */
+  protected inline def addEmission(inline add: (Rgb, Float) => Unit): Unit =
+    val point = vertex.point
+    if point.areaLight >= 0 then
+      val light = scene.surfaceLight(point)
+      val Le = light.radiance(point, vertex.wo)
+      if !Le.isBlack then
+        val weight = surfaceWeight(light)
+        add(Le, weight)
+        extension.meetSurface(point.areaLight, Le, weight)
+
+  /** Chooses a light and samples a point on it; false if it contributes nothing.
+    *
+    * @param n      normal for the choice of lights
+    * @param isUsed false: the random numbers are drawn all the same
+    */
+  protected inline def sampleLight(
+      p: Vec3,
+      n: Vec3,
+      sampler: Sampler,
+      inline isUsed: Boolean
+  ): Boolean =
+    val u = sampler.next1D(matters = connection.isRandom)
+    sampler.next2D()
+    isUsed && connection.choose(p, n, u) && connection.samplePoint(p, sampler.x, sampler.y)
+
   /** Weight of what the light at the vertex emits against light sampling. */
   protected final def surfaceWeight(light: SurfaceLight): Float =
     val point = vertex.point

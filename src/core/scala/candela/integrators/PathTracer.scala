@@ -46,14 +46,7 @@ final class PathTracer private (
       else
         vertex.hit(ray, hit)
         val point = vertex.point
-        // Add light that the surface emits
-        if point.areaLight >= 0 then
-          val light = scene.surfaceLight(point)
-          val Le = light.radiance(point, vertex.wo)
-          if !Le.isBlack then
-            val weight = surfaceWeight(light)
-            L.addProduct(beta, Le, weight)
-            extension.meetSurface(point.areaLight, Le, weight)
+        addEmission((Le, weight) => L.addProduct(beta, Le, weight))
         if scene.isPassed(ray, hit, point) || extension.isHidden then skipIntersection()
         else if isAtMaxDepth then goesOn = false
         else
@@ -64,25 +57,19 @@ final class PathTracer private (
           var isAtVertex = true
           while isAtVertex do
             // Sample direct light
-            if hasLights && !vertex.bsdf.isSpecular then
-              val u = sampler.next1D(matters = connection.isRandom)
-              sampler.next2D()
-              if connection.choose(point.p, vertex.lightNormal, u) &&
-                connection.samplePoint(
-                  point.p,
-                  sampler.x,
-                  sampler.y
-                ) && extension.takesLightSample &&
-                connection.computeArrived(
-                  vertex,
-                  weight = wi =>
-                    val bsdfPdf = extension.directionPdf(wi, vertex.localPdf(wi))
-                    LightTransport.powerHeuristic(connection.pdf, bsdfPdf)
-                )
-              then
-                connection.arrived.scale(extension.sampleFactor(connection.localWi))
-                L.addProduct(beta, connection.arrived)
-                extension.recordSample(beta.toRgb * connection.arrived.toRgb)
+            if hasLights && !vertex.bsdf.isSpecular &&
+              sampleLight(point.p, vertex.lightNormal, sampler, isUsed = true) &&
+              extension.takesLightSample &&
+              connection.computeArrived(
+                vertex,
+                weight = wi =>
+                  val bsdfPdf = extension.directionPdf(wi, vertex.localPdf(wi))
+                  LightTransport.powerHeuristic(connection.pdf, bsdfPdf)
+              )
+            then
+              connection.arrived.scale(extension.sampleFactor(connection.localWi))
+              L.addProduct(beta, connection.arrived)
+              extension.recordSample(beta.toRgb * connection.arrived.toRgb)
             extension.addCaustics()
             // Sample the BSDF for the next direction
             if !extension.sampleDirectionInstead(sampler) then

@@ -69,14 +69,7 @@ abstract class SurfaceWalk(
 
   /** Adds what the surface emits. */
   protected final def addEmission(): Unit =
-    val point = vertex.point
-    if point.areaLight >= 0 then
-      val light = scene.surfaceLight(point)
-      val Le = light.radiance(point, vertex.wo)
-      if !Le.isBlack then
-        val weight = surfaceWeight(light)
-        L.addProduct(surfacePath.beta, Le, weight)
-        extension.meetSurface(point.areaLight, Le, weight)
+    addEmission((Le, weight) => L.addProduct(surfacePath.beta, Le, weight))
 
   /** Does light pass here unscattered? */
   protected final def isPassed: Boolean = scene.isPassed(ray, hit, vertex.point)
@@ -94,12 +87,8 @@ abstract class SurfaceWalk(
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
   protected final def sampleLight(sampler: Sampler): Boolean =
-    scene.lights.length > 0 && !vertex.bsdf.isSpecular && {
-      val u = sampler.next1D(matters = connection.isRandom)
-      sampler.next2D()
-      val p = vertex.point.p
-      connection.choose(p, vertex.lightNormal, u) && connection.samplePoint(p, sampler.x, sampler.y)
-    }
+    scene.lights.length > 0 && !vertex.bsdf.isSpecular &&
+      sampleLight(vertex.point.p, vertex.lightNormal, sampler, isUsed = true)
 
   /** Adds the light sample, if it is visible.
     *

@@ -68,14 +68,7 @@ final class VolumePathTracer private (
       else
         vertex.hit(ray, hit)
         val point = vertex.point
-        // Add light that the surface emits
-        if point.areaLight >= 0 then
-          val light = scene.surfaceLight(point)
-          val Le = light.radiance(point, vertex.wo)
-          if !Le.isBlack then
-            val weight = surfaceWeight(light)
-            L.add(volumePath.carried(Le, weight))
-            extension.meetSurface(point.areaLight, Le, weight)
+        addEmission((Le, weight) => L.add(volumePath.carried(Le, weight)))
         val isPane = crossesPanes && scene.isPane(point)
         if scene.isPassed(ray, hit, point) || extension.isHidden then skipIntersection()
         else if !isPane && isAtMaxDepth then goesOn = false
@@ -89,11 +82,9 @@ final class VolumePathTracer private (
             // Sample direct light. Random numbers are drawn at all surfaces but panes
             val isSampled = !vertex.bsdf.isSpecular && volumePath.depth <= limits.maxDepth
             if isSampled || !isPane then
-              val u = sampler.next1D(matters = connection.isRandom)
-              sampler.next2D()
-              if isSampled && hasLights && connection.choose(point.p, vertex.lightNormal, u) &&
-                connection.samplePoint(point.p, sampler.x, sampler.y) && extension.takesLightSample
-              then addDirect()
+              val isLit =
+                sampleLight(point.p, vertex.lightNormal, sampler, isUsed = isSampled && hasLights)
+              if isLit && extension.takesLightSample then addDirect()
             extension.addCaustics()
             // Sample the BSDF for the next direction
             if !extension.sampleDirectionInstead(sampler) then
@@ -135,9 +126,7 @@ final class VolumePathTracer private (
     val phase = media(volumePath.medium).phase
     extension.arriveInMedium(p, wo, volumePath.medium)
     if hasLights then
-      val u = sampler.next1D(matters = connection.isRandom)
-      sampler.next2D()
-      if connection.choose(p, Vec3.Zero, u) && connection.samplePoint(p, sampler.x, sampler.y) then
+      if sampleLight(p, Vec3.Zero, sampler, isUsed = true) then
         val f = phase.value(wo, connection.wi)
         if visibility.reaches(p, connection.sample, volumePath.medium) then
           // Any local direction: in a medium guiding needs only that in the world

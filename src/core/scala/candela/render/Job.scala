@@ -38,13 +38,13 @@ private[render] object Job:
     (tiles.film, tiles.worker(samples.integrator, queue, samples.begin(queue)))
 
   def film(
-      b: PixelBounds,
+      bounds: PixelBounds,
       splats: Option[SplatFilm],
       shares: Option[SampleShares] = None,
       bands: Option[BandFilm] = None,
       levels: Option[BrightnessLevels] = None,
       volume: Double = 1
-  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares, bands, levels, volume)
+  ): Film = Film(bounds, splats, shares, bands, levels, volume)
 
 /** Film and workers of the tiled methods.
   *
@@ -59,21 +59,21 @@ private[render] final class TileJobs(
     guide: Option[Guide] = None,
     bounds: Option[PixelBounds] = None
 ):
-  private val filmBounds @ PixelBounds(x0, y0, x1, y1) = bounds.getOrElse(plan.crop)
+  private val filmBounds = bounds.getOrElse(plan.crop)
   private val shares = Option.when(plan.sharesSamples):
-    SampleShares(x0, y0, x1, y1, FilterReach(plan.filter), schedule.tiles)
+    SampleShares(filmBounds, FilterReach(plan.filter), schedule.tiles)
   val film: Film = Job.film(
     filmBounds,
     splats,
     shares,
-    plan.bands.map(BandFilm(_, x0, y0, x1, y1)),
+    plan.bands.map(BandFilm(_, filmBounds)),
     Option.when(plan.fireflies == Fireflies.Reweighted && bounds.isEmpty):
       BrightnessLevels(shares.fold(schedule.tiles)(_.reached))
     ,
     if plan.sharesSamples then plan.filter.integral else 1
   )
   private val layers =
-    plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers, asked.groups))
+    plan.layers.map(asked => LayerFilm(filmBounds, asked.layers, asked.groups))
   private val filterSampler =
     new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
 

@@ -3,7 +3,7 @@ package candela.render
 import candela.bdpt.Strategies
 import candela.caustics.CausticChoice
 import candela.color.Wavelengths
-import candela.film.{PixelBounds, SplatFilm, Splats, View}
+import candela.film.{SplatFilm, Splats, View}
 import candela.guiding.GuideSettings
 import candela.integrators.{ConvertedSplats, Integrator, SpectralIntegrators, WorkerIntegrators}
 import candela.scene.{PathReport, Scene}
@@ -116,13 +116,9 @@ object RenderMethod:
 
   /** The film of splats. */
   private[render] def splatFilm(plan: RenderPlan): SplatFilm =
-    val PixelBounds(x0, y0, x1, y1) = plan.crop
     val pixels = plan.width.toDouble * plan.height
     SplatFilm(
-      x0,
-      y0,
-      x1,
-      y1,
+      plan.crop,
       plan.filter,
       pixels,
       plan.basis,

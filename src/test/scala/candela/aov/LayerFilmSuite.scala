@@ -4,7 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Lambert
 import candela.color.{ColorSpace, Rgb}
-import candela.film.Development
+import candela.film.{Development, PixelBounds}
 import candela.geometry.{Frame, Ray}
 import candela.image.Image
 import candela.math.Vec3
@@ -40,7 +40,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     image(x, 0, image.channelNames.indexOf(name))
 
   private def filled(layers: Vector[Layer], scale: Float = 1f): Image =
-    val film = LayerFilm(3, 5, 5, 6, layers)
+    val film = LayerFilm(PixelBounds(3, 5, 5, 6), layers)
     film.add(3, 5, Rgb(1f, 2f, 3f), 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
     film.add(3, 5, Rgb(3f, 2f, 7f), 3f, surface(Vec3(3, 4, 0), Vec3(0, 1, 0), 0.9f))
     film.add(3, 5, Rgb(9f, 9f, 9f), 1f, nothing)
@@ -55,7 +55,7 @@ final class LayerFilmSuite extends AnyFunSuite:
 
   test("albedos are in the image's colour space, where white is 1"):
     val space = ColorSpace.named("aces2065-1").get
-    val film = LayerFilm(0, 0, 1, 1, Vector(Layer.Albedo))
+    val film = LayerFilm(PixelBounds(0, 0, 1, 1), Vector(Layer.Albedo))
     film.add(0, 0, Rgb.Black, 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
     val empty = Image(1, 1, Image.RgbNames, Array(0f, 0f, 0f), colorSpace = space)
     val image = film.appendTo(empty, Development())
@@ -87,7 +87,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     assert(Math.abs(value(relative, "RelativeVariance.B") - 10 * 8f / 5) < 1e-4f)
 
   test("the variance is that of samples that vary as the inverse of their weights"):
-    val film = LayerFilm(3, 5, 5, 6, Vector(Layer.Variance, Layer.RelativeVariance))
+    val film = LayerFilm(PixelBounds(3, 5, 5, 6), Vector(Layer.Variance, Layer.RelativeVariance))
     // Weighted, 1, 5 and 2 are 1, 5, 2, 2, 2, 2; the mean is 14 / 6, the mean of squares 42 / 6
     for (light, weight) <- Vector((1f, 1f), (5f, 1f), (2f, 4f)) do
       val seen = surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f)

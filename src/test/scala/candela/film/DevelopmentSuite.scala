@@ -7,7 +7,7 @@ import candela.color.{ColorSpace, Rgb, WhiteBalance}
 final class DevelopmentSuite extends AnyFunSuite:
 
   private def developed(c: Rgb, development: Development): Vector[Float] =
-    val film = Film(0, 0, 1, 1)
+    val film = Film(PixelBounds(0, 0, 1, 1))
     film.add(0, 0, c.r, c.g, c.b, 2f)
     development(film).data.toVector
 

@@ -12,7 +12,7 @@ class FireflyWeightsSuite extends AnyFunSuite:
   private val tiles = Vector(PixelBounds(5, 3, 12, 15), PixelBounds(12, 3, 17, 15))
 
   private def emptyFilm(): Film =
-    Film(5, 3, 17, 15, levels = Some(BrightnessLevels(tiles)))
+    Film(PixelBounds(5, 3, 17, 15), levels = Some(BrightnessLevels(tiles)))
 
   /** A film with `samples` of each pixel. */
   private def film(samples: Int)(light: (Int, Int, Int) => Float): Film =
@@ -75,10 +75,15 @@ class FireflyWeightsSuite extends AnyFunSuite:
   test("a firefly that is splatted is left out of all pixels under the filter"):
     for filter <- Vector(GaussianFilter.ofSigma(2f, 2f, 0.8f), MitchellFilter(2f, 2f, 0.3f, 0.3f))
     do
-      val shares = SampleShares(5, 3, 17, 15, FilterReach(filter), tiles)
+      val shares = SampleShares(PixelBounds(5, 3, 17, 15), FilterReach(filter), tiles)
       val levels = BrightnessLevels(shares.reached)
       val film =
-        Film(5, 3, 17, 15, shares = Some(shares), levels = Some(levels), volume = filter.integral)
+        Film(
+          PixelBounds(5, 3, 17, 15),
+          shares = Some(shares),
+          levels = Some(levels),
+          volume = filter.integral
+        )
       val level = levels.pass()
       val pass = shares.pass(Some(level))
       for (tile, i) <- tiles.zipWithIndex; sample <- 0 until 32 do

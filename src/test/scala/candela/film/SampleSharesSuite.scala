@@ -18,9 +18,9 @@ class SampleSharesSuite extends AnyFunSuite:
   private val tiles =
     Vector(PixelBounds(6, 16, 12, 29), PixelBounds(12, 16, 20, 29))
   private def shares(filter: Filter) =
-    SampleShares(10, 20, 16, 25, FilterReach(filter), tiles)
+    SampleShares(PixelBounds(10, 20, 16, 25), FilterReach(filter), tiles)
   private def image(s: SampleShares): Image =
-    Film(10, 20, 16, 25, shares = Some(s)).toImage(1f)
+    Film(PixelBounds(10, 20, 16, 25), shares = Some(s)).toImage(1f)
 
   /** As many samples along each axis of each pixel, evenly placed. */
   private def fill(s: SampleShares, along: Int)(light: (Float, Float) => Float): Unit =

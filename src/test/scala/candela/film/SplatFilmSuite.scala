@@ -12,7 +12,7 @@ final class SplatFilmSuite extends AnyFunSuite:
   private val box = BoxFilter(0.5f, 0.5f)
 
   private def film(filter: Filter = box, limits: Vector[SampleLimit] = Vector.empty): SplatFilm =
-    SplatFilm(0, 0, 4, 3, filter, 12.0, ColorBasis.Srgb, limits)
+    SplatFilm(PixelBounds(0, 0, 4, 3), filter, 12.0, ColorBasis.Srgb, limits)
 
   private def values(film: SplatFilm): Vector[Float] =
     val data = new Array[Float](36)
@@ -66,7 +66,7 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("splats of several threads at once, across bands of rows, are those of one"):
     val filter = GaussianFilter.ofSigma(2.5f, 2.5f, 0.8f)
-    def high = SplatFilm(0, 0, 8, 40, filter, 320.0, ColorBasis.Srgb, Vector.empty)
+    def high = SplatFilm(PixelBounds(0, 0, 8, 40), filter, 320.0, ColorBasis.Srgb, Vector.empty)
     val draws = Draws(9)
     val all = Vector.fill(20000)((draws.between(-1, 9), draws.between(-2, 42)))
     def add(film: SplatFilm, from: Int) =
@@ -100,7 +100,7 @@ final class SplatFilmSuite extends AnyFunSuite:
         MitchellFilter(2f, 2f, 1f / 3, 1f / 3)
       )
     do
-      val f = SplatFilm(0, 0, 16, 16, filter, 1.0, ColorBasis.Srgb, Vector.empty)
+      val f = SplatFilm(PixelBounds(0, 0, 16, 16), filter, 1.0, ColorBasis.Srgb, Vector.empty)
       val draws = Draws(6)
       for _ <- 1 to 4000 do
         f.countSample()
@@ -130,9 +130,8 @@ final class SplatFilmSuite extends AnyFunSuite:
     assert(values(before).slice(3, 6) == Vector(12f, 24f, 36f))
 
   test("the light of strategies is beside the image, and saved with it"):
-    def empty = SplatFilm(
-      0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, strategies = 2
-    )
+    def empty =
+      SplatFilm(PixelBounds(0, 0, 4, 3), box, 12.0, ColorBasis.Srgb, Vector.empty, strategies = 2)
     val f = empty
     f.countSample()
     f.add(0.5f, 0.5f, Rgb(1, 2, 3), 0)
@@ -147,7 +146,7 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("groups of lights add up to all splats, and each has its own"):
     def filled(groups: Int) =
-      val f = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, groups)
+      val f = SplatFilm(PixelBounds(0, 0, 4, 3), box, 12.0, ColorBasis.Srgb, Vector.empty, groups)
       f.countSample()
       for k <- 0 to 2 do f.add(k + 0.5f, 0.5f, Rgb(1, 2, 3) * (k + 1f), group = k)
       f
@@ -158,6 +157,6 @@ final class SplatFilmSuite extends AnyFunSuite:
       three.addTo(data, 1f, k)
       assert(data.indices.filter(data(_) != 0f) == (3 * k until 3 * k + 3))
       assert(data.sum == 12 * 6 * (k + 1f))
-    val read = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, 3)
+    val read = SplatFilm(PixelBounds(0, 0, 4, 3), box, 12.0, ColorBasis.Srgb, Vector.empty, 3)
     saved(three)(CheckedFile.read(_, "splats")(read.load))
     assert(bytes(read) == bytes(three))

@@ -1,7 +1,7 @@
 package candela.job
 
 import candela.color.Rgb
-import candela.film.{Development, Film}
+import candela.film.{Development, Film, PixelBounds}
 import candela.image.Image
 import candela.render.{
   Looks, Pass, RenderControl, Renderer, Rendering, RenderPlan, StoppingRule, TinyPlan
@@ -82,7 +82,7 @@ class GoalRuleSuite extends AnyFunSuite:
     assert(timed.endedBy(rendering) == GoalRule.Ending.Time)
     assert(timed.endedBy(rendering.copy(samplesDone = 1000)) == GoalRule.Ending.Samples)
 
-  private val film = Film(0, 0, 1, 1)
+  private val film = Film(PixelBounds(0, 0, 1, 1))
 
   /** When a rendering ends whose samples take a second each, the first one, and then `actual`
     * seconds.

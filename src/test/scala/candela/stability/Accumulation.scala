@@ -29,7 +29,7 @@ object Accumulation extends Group(
 class AccumulationSuite extends GroupSuite(Accumulation)
 
 private object Sums:
-  private def onePixel(): Film = Film(0, 0, 1, 1)
+  private def onePixel(): Film = Film(PixelBounds(0, 0, 1, 1))
 
   /** Doubles add 10⁶ terms with a relative error of 10⁶ · 2⁻⁵³, far below the rounding to Float at
     * the end: the exact mean, added here with a compensated sum (Neumaier, 1974), is met to 1 ulp.

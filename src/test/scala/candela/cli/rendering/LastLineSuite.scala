@@ -1,7 +1,7 @@
 package candela.cli.rendering
 
 import candela.cli.Captured
-import candela.film.Film
+import candela.film.{Film, PixelBounds}
 import candela.render.Rendering
 import candela.testing.TempFolder
 
@@ -53,7 +53,7 @@ class LastLineSuite extends AnyFunSuite:
 
   test("a resumed rendering without a new sample says so"):
     def line(earlier: Int) =
-      val film = Film(0, 0, 2, 2)
+      val film = Film(PixelBounds(0, 0, 2, 2))
       val r = Rendering(film, 16, 16, 64, 64, seconds = 1, discarded = None, earlier = earlier)
       Summary.result(Vector(Path.of("a.exr")), r, ending = Some("time"))
     assert(line(16).contains("16 spp (none added), ") && line(16).endsWith("; ended by --time"))
