@@ -1,5 +1,6 @@
 package candela.convert
 
+import candela.base.loop
 import candela.color.{Cauchy, Rgb}
 import candela.diagnostics.{Code, Problem}
 import candela.image.{Image, ImageError, ImageFiles}
@@ -89,7 +90,7 @@ private[convert] object FromGltf:
           textures.get(p.strings.head).filter(_.name == "imagemap") match
             case Some(t) =>
               val name = s"${p.strings.head} from ${NumberText.of(from)}"
-              add(name, channel(extracted(t), _ >= from))
+              add(name, channel(extracted(t), x => if x >= from then 1f else 0f))
               Param.texture("alpha", p.pos, name)
             case None =>
               warn(p, "pbrt has no threshold of this alpha; it is used as it is")
@@ -115,10 +116,10 @@ private[convert] object FromGltf:
           Param.string("wrap", p.pos, "repeat"))
 
     /** A channel of an image, as an image of its own. */
-    private def channel(d: Declaration, change: Float => Float | Boolean): Declaration =
-      val key = (channelOf(d), numberOf(change(0.4f)) + 2 * numberOf(change(0.6f)))
+    private def channel(d: Declaration, change: Float => Float): Declaration =
+      val key = (channelOf(d), change(0.4f) + 2 * change(0.6f))
       val single = rewritten(d, key): image =>
-        val data = grays(d, image).map(x => numberOf(change(x)))
+        val data = grays(d, image).map(change)
         Image(image.width, image.height, Vector("Y"), data, image.encoding)
       single.copy(params = single.params.filterNot(_.name == "channel"))
 
@@ -149,17 +150,14 @@ private[convert] object FromGltf:
           )
           None
 
-    private def numberOf(x: Float | Boolean): Float = x match
-      case f: Float => f
-      case b: Boolean => if b then 1f else 0f
-
     /** The values of the channel that a texture reads. */
     private def grays(d: Declaration, image: Image): Array[Float] =
       val name = channelOf(d).toUpperCase
       val channelIndex = image.channelNames.indexOf(name)
       val c = if channelIndex >= 0 || name == "A" then channelIndex else image.colorChannels.head
-      Array.tabulate(image.width * image.height): i =>
-        if c < 0 then 1f else image.data(i * image.channels + c)
+      val values = new Array[Float](image.width * image.height)
+      loop(values.length)(i => values(i) = if c < 0 then 1f else image.data(i * image.channels + c))
+      values
 
     private def areaLight(d: Declaration): Declaration =
       val tinted = d.param("tint").map(rgb).filter(_ != Rgb.White).fold(d): tint =>
