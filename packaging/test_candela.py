@@ -515,6 +515,7 @@ class InMemory(unittest.TestCase):
             candela.render(scene)
         told = {p.key: p.message for p in caught.exception.problems}
         self.assertIn("found an array of 2 × 2 × 5 float64", told["red.reflectance.data"])
+        self.assertNotIn("red.reflectance", told)
         self.assertIn("candela.mesh(vertices, faces)", told["ball.vertex_positions"])
         self.assertIn("found an array of 1000 × 3 float64", told["ball.to_world"])
         self.assertIn("found a list of 1000 values", told["ball.center"])
@@ -533,11 +534,13 @@ class InMemory(unittest.TestCase):
         scene["thing"] = {"type": "zzz"}
         scene["other"] = {"type": "sphere", "bsdf": {"type": "ref", "id": "thing"}}
         scene["sky"]["scale"] = {"type": "rgb"}
+        scene["lost"] = {"type": "sphere", "bsdf": {"type": "ref", "id": "nobody"}}
         with self.assertRaises(candela.SceneError) as caught:
             candela.load_dict(scene)
         keys = {p.key for p in caught.exception.problems}
         self.assertLessEqual({"red", "red.reflectance", "thing", "sensor.film.width"}, keys)
         self.assertNotIn("other.bsdf", keys)
+        self.assertIn("lost.bsdf", keys)
 
     def test_what_the_renderer_finds_in_a_dict_has_a_key_and_no_line(self):
         warned, wrong = mitsuba(), mitsuba()
@@ -666,6 +669,8 @@ class Kept(unittest.TestCase):
             (grey, True, 0.21586),
             (half, True, 0.21404),
             (half, False, 0.5),
+            (np.full((2, 2, 4), 32768, np.uint16), False, 32768 / 65535),
+            (np.full((2, 2, 2), 128, np.uint8), True, 0.21586),
         ):
             scene = self.scene({"type": "bitmap", "data": Bitmap(values, gamma)})
             albedo = scene.render(spp=1, aov=["albedo"])["albedo"]

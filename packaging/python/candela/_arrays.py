@@ -115,10 +115,13 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
     _need_numpy()
     array = np.array(values)
     gamma = getattr(values, "srgb_gamma", None)
-    if callable(gamma) and not is_raw:
-        if array.dtype == np.uint8 and not gamma():
-            array = array / np.float32(255)
-        elif array.dtype.kind == "f" and gamma():
+    if callable(gamma):
+        if array.ndim == 3 and array.shape[2] in (2, 4):
+            array = array[..., :-1]  # Mitsuba's textures have no alpha
+        is_wide = array.dtype.kind == "u" and array.dtype.itemsize > 1
+        if is_wide or array.dtype == np.uint8 and not (gamma() or is_raw):
+            array = array / np.float32(np.iinfo(array.dtype).max)
+        if array.dtype.kind == "f" and gamma() and not is_raw:
             array = linear(array)
     planes = array[..., None] if array.ndim == 2 else array
     is_bytes = array.dtype == np.uint8

@@ -134,22 +134,28 @@ def load_dict(scene: Dict[str, Any]) -> Scene:
     tree, faults = _xml.of_dict(scene)
     made = Scene("scene.xml", None, tree)
     if faults:
-        raise _xml.error_of_faults(faults + _others(made, faults))
+        raise _xml.error_of_faults(faults + _others(made, faults, list(scene)))
     return made
 
 
-def _others(scene: Scene, faults: List[Problem]) -> List[Problem]:
-    """The renderer's errors that don't come of the faults, which others may refer to."""
+def _others(scene: Scene, faults: List[Problem], ids: List[str]) -> List[Problem]:
+    """The renderer's errors that don't come of the faults.
+
+    :param ids: names of objects, which others may refer to
+    """
     try:
         found = scene.check()
     except CandelaError:  # the faults are to be told, whatever else is wrong
         return []
-    keys = {fault.key for fault in faults}
-    return [
-        p
-        for p in found
-        if p.severity == "error" and p.key and p.key not in keys and p.number != "E0403"
-    ]
+    keys = {fault.key or "" for fault in faults}
+
+    def follows(p: Problem) -> bool:
+        if p.number == "E0403":  # an object that is not defined
+            return any(f"`{name}`" in p.message for name in ids)
+        lacks = p.number == "E0305"  # a parameter that is missing
+        return p.key in keys or lacks and any(k.startswith(f"{p.key}.") for k in keys)
+
+    return [p for p in found if p.severity == "error" and p.key and not follows(p)]
 
 
 def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:

@@ -7,9 +7,9 @@ import java.nio.file.Path
 
 /** Formats of modules that may not be installed. */
 object MissingFormats:
-  /** Suffixes of what the module `candela-assimp` reads. */
+  /** Suffixes of what the module `candela-assimp` reads, the usual ones first. */
   val OfAssimp: Vector[String] =
-    ("3ds 3mf ac ac3d acc amf ase ask b3d dae dxf fbx ifc ifczip lwo lxo md2 md5mesh ms3d nff " +
+    ("fbx dae 3ds 3mf ac ac3d acc amf ase ask b3d dxf ifc ifczip lwo lxo md2 md5mesh ms3d nff " +
       "off smd x x3d x3db zae").split(' ').toVector
 
   /** What to install for a file, if it has such a format.

@@ -134,8 +134,13 @@ object SceneFormat:
 
   /** `pbrt (.pbrt) or Mitsuba (.xml)` */
   def inWords: String =
-    val labels = all.map(f => s"${f.name} (${f.suffixes.map("." + _).mkString(", ")})")
+    val labels = all.map: f =>
+      val ellipsis = if f.suffixes.size > MaxShown then " and others" else ""
+      s"${f.name} (${f.suffixes.take(MaxShown).map("." + _).mkString(", ")}$ellipsis)"
     s"${labels.init.mkString(", ")} or ${labels.last}"
+
+  /** Suffixes of a format that messages show, the usual ones. */
+  private val MaxShown = 3
 
   private object Pbrt extends SceneFormat("pbrt", Vector("pbrt")):
     def hasDialects: Boolean = true

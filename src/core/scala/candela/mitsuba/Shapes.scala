@@ -155,9 +155,10 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     in.plugin.name match
       case "sphere" =>
         val centre = in.triple("center").fold(Transform.Identity)(Transform.translate(_, _, _))
-        // A reflection turns it inside out, in Mitsuba as in pbrt
-        val size = Seq(number("radius", in.number("radius", 1)))
-        Some(Form("sphere", size, toWorld * centre, isFlipped))
+        // A reflection turns it inside out, in Mitsuba as in pbrt; so does a radius below 0
+        val radius = in.number("radius", 1)
+        val size = Seq(number("radius", Math.abs(radius)))
+        Some(Form("sphere", size, toWorld * centre, isFlipped != radius < 0))
       case "cylinder" =>
         for (axisToWorld, length) <- axis(in, toWorld) yield
           // Upside down, so that v runs as on Mitsuba's; emitters have none, and pbrt's light of
@@ -167,7 +168,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           val down = if isEven then Transform.Identity else Transform.scale(1, 1, -1).get
           val toWorld = axisToWorld * down
           val ends = if down.isIdentity then Seq(0.0, length) else Seq(-length, 0.0)
-          val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
+          val radius = Math.abs(in.number("radius", 1))
+          val size = Seq("radius" -> radius) ++ Seq("zmin", "zmax").zip(ends)
           Form("cylinder", size.map(number(_, _)), toWorld, isFlipped != toWorld.swapsHandedness)
       case "disk" =>
         // pbrt turns the normals of all reflected quadrics

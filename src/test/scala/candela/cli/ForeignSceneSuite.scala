@@ -45,7 +45,8 @@ class ForeignSceneSuite extends AnyFunSuite:
       assert(refusal(s"$mitsuba")(1) == " its name must end with .xml")
 
   private val formats =
-    "pbrt (.pbrt), Mitsuba (.xml), glTF (.glb, .gltf), OBJ (.obj), PLY (.ply) or STL (.stl)"
+    "pbrt (.pbrt), Mitsuba (.xml), glTF (.glb, .gltf), OBJ (.obj), PLY (.ply), STL (.stl) or " +
+      "Assimp (.fbx, .dae, .3ds and others)"
 
   test("a model in place of a scene is told the formats that scenes have"):
     TempFolder.use: folder =>

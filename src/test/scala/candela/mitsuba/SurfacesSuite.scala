@@ -90,6 +90,16 @@ final class SurfacesSuite extends MitsubaPictures:
       val found = seen(name)
       assert(Math.abs(found - expected) < 0.01f * expected, s"$name: $found")
 
+  test("a radius below 0 turns a sphere inside out, and no cylinder"):
+    def seen(shape: String, radius: Int, isBack: Boolean) =
+      val turned = s"<boolean name=\"flip_normals\" value=\"$isBack\"/>"
+      val size = s"<float name=\"radius\" value=\"$radius\"/>"
+      mean(view(30, 16) + s"<shape type=\"$shape\">$size$turned$Diffuse</shape>$Sun").g
+    for isBack <- Seq(false, true) do
+      assert(seen("sphere", -1, isBack) == seen("sphere", 1, !isBack))
+      assert(seen("cylinder", -1, isBack) == seen("cylinder", 1, isBack))
+    assert(seen("sphere", -1, isBack = false) != seen("sphere", 1, isBack = false))
+
   test("a mirrored instance keeps the outside of its shapes"):
     def instanced(shape: String) = mean(
       view(30, 256) + "<shape type=\"shapegroup\" id=\"g\">" +
