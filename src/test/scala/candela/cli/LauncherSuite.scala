@@ -202,6 +202,14 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Map("CANDELA_JAVA" -> older.toString)).code == 0)
       assert(p.starts.last.exists(_.startsWith("-XX:SharedArchiveFile=")))
 
+  test("with the jar of Assimp, which changes the class path, the archive is another one"):
+    staged: p =>
+      val _ = p.jdk("99")
+      assert(p.run(env = Make).code == 0)
+      val _ = Files.writeString(p.lib.resolve("candela-assimp.jar"), "")
+      assert(p.run(env = Make).code == 0)
+      assert(p.archives(p.lib).map(_.getFileName.toString).toSet == Set("99.aot", "99-assimp.aot"))
+
   test("where the program's folder is read-only, the archive is in the user's cache"):
     staged: p =>
       val _ = p.jdk("99")
