@@ -84,7 +84,9 @@ object MeshAttributes:
   private val Numbered =
     Vector("x y z w", "r g b a", "0 1 2 3", "1 2 3 4").map(_.split(" ").toVector)
 
-  /** Properties with a common prefix are one attribute; those of a colour need none. */
+  /** Properties with a common prefix are one attribute; those of a colour need none, and
+    * have `color` at the end of the name.
+    */
   private[mitsuba] def grouped(
       kind: String,
       properties: Vector[(String, Array[Float])]
@@ -96,5 +98,7 @@ object MeshAttributes:
       .map(name => name.take(name.lastIndexOf('_'))).distinct
     val prefixed = prefixes.flatMap: prefix =>
       Numbered.map(_.map(s => s"${prefix}_$s").takeWhile(byName.contains)).find(_.nonEmpty)
-        .map(components => s"${kind}_$prefix" -> components.map(byName))
+        .map: components =>
+          val suffix = if components.head.endsWith("_r") then "_color" else ""
+          s"${kind}_$prefix$suffix" -> components.map(byName)
     colors ++ prefixed

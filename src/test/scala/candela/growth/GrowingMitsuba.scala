@@ -61,6 +61,23 @@ object GrowingMitsuba:
       Files.writeString(folder.resolve(file), content(count).mkString("", "\n", "\n")): Unit
       scene(Seq(s"<shape type=\"$kind\"><string name=\"filename\" value=\"$file\"/></shape>"))
 
+  private val attributes =
+    Growing("Mitsuba: colours of faces", Dialect.Mitsuba, 250): (folder, count) =>
+      val header = s"ply\nformat ascii 1.0\nelement vertex ${count + 2}\nproperty float x\n" +
+        s"property float y\nproperty float z\nelement face $count\n" +
+        "property list uchar int vertex_indices\nproperty float r\nproperty float g\n" +
+        "property float b\nend_header\n"
+      val vertices = Iterator.tabulate(count + 2)(i => s"$i ${i % 2} 0")
+      val faces = Iterator.tabulate(count)(i => s"3 $i ${i + 1} ${i + 2} ${share(i, count)} 0 0")
+      Files.writeString(
+        folder.resolve("a.ply"),
+        header + (vertices ++ faces).mkString("", "\n", "\n")
+      ): Unit
+      val texture = s"<texture type=\"mesh_attribute\" name=\"reflectance\">" +
+        s"${text("name", "face_color")}</texture>"
+      val bsdf = s"<bsdf type=\"diffuse\">$texture</bsdf>"
+      scene(Seq(s"<shape type=\"ply\">${text("filename", "a.ply")}$bsdf</shape>"))
+
   private def surface(kind: String)(inside: (Int, Int) => String) =
     row(s"bsdf $kind"): (i, n) =>
       ball(i, n, s"<bsdf type=\"$kind\">${inside(i, n)}</bsdf>")
@@ -108,6 +125,7 @@ object GrowingMitsuba:
   private def triangle = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nf 1 2 3\n"
 
   val rows: Vector[Growing] = surfaces ++ Vector(
+    attributes,
     textured("checkerboard")(color("color0", _, _)),
     row("spectra")((i, n) =>
       ball(

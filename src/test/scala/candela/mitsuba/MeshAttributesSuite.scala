@@ -55,7 +55,8 @@ class MeshAttributesSuite extends AnyFunSuite:
         .map((name, channels) => (name, channels.size))
     assert(names("r", "g", "b") == Vector(("vertex_color", 3)))
     assert(names("red", "green", "blue", "alpha") == Vector(("vertex_color", 4)))
-    assert(names("old_paint_r", "old_paint_g", "old_paint_b") == Vector(("vertex_old_paint", 3)))
+    assert(names("old_paint_r", "old_paint_g", "old_paint_b") ==
+      Vector(("vertex_old_paint_color", 3)))
     assert(names("heat_1", "wind_x", "wind_y", "quality") ==
       Vector(("vertex_heat", 1), ("vertex_wind", 2)))
     assert(attributes.grid("vertex_colour").isEmpty)

@@ -2,6 +2,7 @@ package candela.models
 
 import candela.color.Rgb
 import candela.diagnostics.{Code, Refusal, SceneError}
+import candela.image.{Image, ImageFiles}
 import candela.io.SceneFolder
 import candela.math.Vec3
 import candela.scenefile.{Param, Resolution, SceneDescription, ShapeDescription}
@@ -80,6 +81,15 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
     val lone = intercept[SceneError]:
       lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
     assert(lone.problems.head.code == Code.OptionMisfit)
+
+  test("an environment map that is not twice as wide as high is a warning"):
+    TempFolder.use: folder =>
+      def problems(width: Int, height: Int) =
+        val file = folder.resolve(s"$width.exr")
+        ImageFiles.write(file, Image.rgb(width, height))
+        lit(ModelLight.Surroundings(s"$file")).warnings.map(_.message)
+      assert(problems(8, 4).isEmpty)
+      assert(problems(6, 6).exists(_.contains("has 6×6 pixels, and is stretched")))
 
   test("a map is seen from within, not mirrored, with its middle ahead"):
     val map = lit(ModelLight.Surroundings("a.exr")).lights.head

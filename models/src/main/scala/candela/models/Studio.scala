@@ -4,6 +4,7 @@ import candela.base.loop
 import candela.color.Rgb
 import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.geometry.Bounds3
+import candela.image.ImageSize
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
@@ -116,7 +117,15 @@ private final class Surroundings(
       for near <- Suggest.nearest(file, Vector("studio", "sky")) if !Files.exists(Path.of(file)) do
         val help = Some(s"did you mean `$near`?")
         throw SceneError(Problem.general(Code.NoSuchFile, s"no such file: `$file`", help))
-      val params = Vector(Param.string("mapname", at, Path.of(file).toAbsolutePath.toString))
+      val path = Path.of(file).toAbsolutePath.toString
+      for
+        size <- session.folder.glance(path).flatMap(ImageSize.guess)
+        if size.height > 1 && size.width != 2 * size.height
+      do
+        val message = s"`$file` has ${size.width}×${size.height} pixels, and is stretched: an " +
+          "equirectangular map is twice as wide as high"
+        session.warn(at, message, Code.ImageContents)
+      val params = Vector(Param.string("mapname", at, path))
       // v3's maps are equirectangular, as is usual
       val image = session.declare("LightSource", "infinite", at, params, Some(Dialect.V3))
       val toWorld = Transform.rotate(turn, 0, 1, 0).fold(Lights.Forward)(_ * Lights.Forward)

@@ -21,8 +21,9 @@ abstract class GridRecipe[A](meaning: String, channels: Int)
         else toUnit().map(m => GridPlace.InSpace(Mapping3D(m)))
     yield
       // Beside the corners of triangles, values may be below 0
-      def channelValues(c: Int) = Array.tabulate(values().length / channels): i =>
-        val v = values()(i * channels + c)
+      val all = values() // checked, each time
+      def channelValues(c: Int) = Array.tabulate(all.length / channels): i =>
+        val v = all(i * channels + c)
         if java.lang.Float.isFinite(v) then v else 0f
       (
         place,
