@@ -49,12 +49,21 @@ final class GrowthSuite extends AnyFunSuite:
     val operations = log2(Math.max(fourfold - double, 1) / Math.max(double - single, 1))
     (operations, log2(results.last._2.toDouble / results.head._2) / 2)
 
+  private def isLinear(measured: (Double, Double)): Boolean =
+    measured._1 < GrowthSuite.Linear && measured._2 < GrowthSuite.Linear
+
+  /** What looks superlinear is measured at four times the size, where it is more so: a step, such
+    * as the next level of a hierarchy eight wide, is not.
+    */
   private def assertLinear(name: String, size: Int)(run: Int => Runnable): Unit =
-    val (operations, bytes) = exponents(size)(run)
-    assert(
-      operations < GrowthSuite.Linear && bytes < GrowthSuite.Linear,
-      f"$name grows with the exponents $operations%.2f in operations, $bytes%.2f in bytes"
-    ): Unit
+    val small = exponents(size)(run)
+    if !isLinear(small) then
+      val large = exponents(4 * size)(run)
+      val (operations, bytes) = large
+      assert(
+        isLinear(large),
+        f"$name grows with the exponents $operations%.2f in operations, $bytes%.2f in bytes"
+      ): Unit
 
   for scene <- Growing.rows; action <- GrowingUse.values do
     test(s"$action: ${scene.name}, ${scene.dialect}"):
@@ -64,9 +73,12 @@ final class GrowthSuite extends AnyFunSuite:
 
   test("a search through all for each is noticed, and a copy of all"):
     val planted = entry("candela.growth.PlantedGrowth")
-    for (kind, isLinear) <- Seq("search" -> false, "copy" -> false, "set" -> true) do
-      val measured = exponents(500)(planted(Array(kind), _))
-      assert((measured._1 < GrowthSuite.Linear) == isLinear, s"$kind: $measured"): Unit
+    for
+      (kind, expected) <- Seq("search" -> false, "copy" -> false, "set" -> true);
+      size <- Seq(500, 2000)
+    do
+      val measured = exponents(size)(planted(Array(kind), _))
+      assert((measured._1 < GrowthSuite.Linear) == expected, s"$kind, $size: $measured"): Unit
 
 object GrowthSuite:
   /** n log n is 1.15 at a thousand. */
