@@ -33,6 +33,16 @@ abstract class Medium:
   def describe: String
 
 object Medium:
+  private val MaxKinds = 8
+
+  /** `3 (2 homogeneous; cloud)`: how many there are of each description, of many the first ones. */
+  private[media] def summary(descriptions: Seq[String]): String =
+    val kinds = descriptions.distinct
+    val count = descriptions.groupMapReduce(identity)(_ => 1)(_ + _)
+    val listed = kinds.take(MaxKinds).map(k => if count(k) == 1 then k else s"${count(k)} $k")
+    val omitted = Option.when(kinds.size > MaxKinds)(s"${kinds.size - MaxKinds} more kinds")
+    s"${descriptions.size} (${(listed ++ omitted).mkString("; ")})"
+
   /** Whether these coefficients depend on colour. */
   private[media] def isChromatic(absorption: Rgb, scattering: Rgb): Boolean =
     Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)

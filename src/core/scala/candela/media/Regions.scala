@@ -10,7 +10,7 @@ import candela.math.*
 final class Regions(all: Array[Region]):
   def newWork(): RegionWork = RegionWork(all.length)
 
-  def describe: String = s"${all.length} (${all.map(_.describe).mkString("; ")})"
+  def describe: String = Medium.summary(all.toSeq.map(_.describe))
 
   /** The longest way through all of them. */
   def extent: Float = Bounds3.of(all.flatMap(_.corners)).extent.length

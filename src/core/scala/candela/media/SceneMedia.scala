@@ -97,4 +97,4 @@ object SceneMedia:
     def describe: String =
       val cameraText = if camera >= 0 then ", one around the camera" else ""
       if media.isEmpty then "none, but interfaces"
-      else s"${media.length} (${media.map(_.describe).mkString("; ")})$cameraText"
+      else Medium.summary(media.toSeq.map(_.describe)) + cameraText

@@ -80,6 +80,12 @@ final class MediumSuite extends AnyFunSuite:
       check(medium, (Vec3(0f, 0f, -3f), Vec3(0f, 0f, 2f)), colors, Rgb.Black): t =>
         linear(-3 + 5 * t)
 
+  test("media of one kind are counted in the summary, of many kinds the first are named"):
+    assert(Medium.summary(Seq("cloud")) == "1 (cloud)")
+    assert(Medium.summary(Seq("fog", "cloud", "fog")) == "3 (2 fog; cloud)")
+    val kinds = Vector.tabulate(10)(i => s"grid $i")
+    assert(Medium.summary(kinds) == kinds.take(8).mkString("10 (", "; ", "; 2 more kinds)"))
+
   test("a grid of colours lets through what its coefficients say"):
     val size = 2
     def channel(v: Float) = SampledGrid(size, size, size, Array.fill(8)(v))
