@@ -78,27 +78,77 @@ final class SolidPrimitives(
     if primitive < firstInstance then ShapeGroup.isHit(shapes, primitive - triangles, ray)
     else instances.isHit(primitive - firstInstance, ray, hit)
 
-/** Primitives of which some are alpha-masked: their hits pass the alpha test or are rejected.
+/** Triangles of which some are alpha-masked: their hits pass the alpha test or are rejected. */
+final class MaskedTriangles(soup: TriangleSoup, masks: Masks):
+  def isEmpty: Boolean = masks.meshes == 0
+
+  /** As [[TriangleTest.intersect]], whose parameters these are, with the alpha test. */
+  def intersect(
+      v: Array[Float],
+      at: Int,
+      stride: Int,
+      primitive: Int,
+      ray: Ray,
+      hit: Hit
+  ): Boolean =
+    val (tMax, u0, v0) = (ray.tMax, hit.u, hit.v)
+    if !TriangleTest.intersect(v, at, stride, primitive, ray, hit) then false
+    else if isHole(primitive, ray, hit, shadow = false) then
+      ray.tMax = tMax
+      hit.u = u0
+      hit.v = v0
+      false
+    else true
+
+  /** As [[TriangleTest.isHit]], with the alpha test of shadow rays; changes `hit`. */
+  def isHit(
+      v: Array[Float],
+      at: Int,
+      stride: Int,
+      primitive: Int,
+      ray: Ray,
+      hit: Hit
+  ): Boolean =
+    val tMax = ray.tMax
+    val isStopped = TriangleTest.intersect(v, at, stride, Int.MaxValue, ray, hit) &&
+      !isHole(primitive, ray, hit, shadow = true)
+    ray.tMax = tMax
+    isStopped
+
+  private def isHole(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
+    val mask = masks.ofMesh(soup.meshOf(primitive))
+    if mask eq SolidMask then false
+    else
+      soup.surface(primitive, hit, hit.work)
+      mask.isHole(hit.work, ray, primitive, shadow)
+
+/** Primitives of which some are alpha-masked.
   *
-  * @param order, corners as in [[SolidPrimitives]]
+  * @param order, corners, triangles as in [[SolidPrimitives]]
+  * @param masks those of the shapes
   */
 final class MaskedPrimitives(
     order: Array[Int],
     corners: Array[Float],
-    soup: TriangleSoup,
+    maskedTriangles: MaskedTriangles,
+    triangles: Int,
     shapes: Array[? <: ShapeGroup],
     instances: Instances,
-    masks: Masks
+    masks: Array[Mask]
 ) extends PackedPrimitives:
-  private val triangles = soup.count
   private val firstInstance = triangles + shapes.length
 
   def intersect(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
     var hasHit = false
     var slot = first
     while slot < end do
-      if test(slot, ray, hit, shadow = false) then
-        hit.primitive = order(slot)
+      val primitive = order(slot)
+      val isCloser =
+        if primitive < triangles then
+          maskedTriangles.intersect(corners, 9 * slot, 1, primitive, ray, hit)
+        else PackedPrimitives.withTies(primitive, ray, hit)(testShape(primitive, ray, hit, false))
+      if isCloser then
+        hit.primitive = primitive
         hasHit = true
       slot += 1
     hasHit
@@ -108,48 +158,23 @@ final class MaskedPrimitives(
     var hasHit = false
     var slot = first
     while !hasHit && slot < end do
-      hasHit = test(slot, ray, hit, shadow = true)
+      val primitive = order(slot)
+      hasHit =
+        if primitive < triangles then
+          maskedTriangles.isHit(corners, 9 * slot, 1, primitive, ray, hit)
+        else testShape(primitive, ray, hit, shadow = true)
       slot += 1
     ray.tMax = tMax
     hasHit
 
-  private def test(slot: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
-    val primitive = order(slot)
-    if primitive < triangles then
-      val mask = masks.ofMesh(soup.meshOf(primitive))
-      if mask eq SolidMask then triangle(slot, ray, hit, shadow)
-      else triangle(slot, mask, ray, hit, shadow)
-    else if shadow then testOther(primitive, ray, hit, shadow)
-    else PackedPrimitives.withTies(primitive, ray, hit)(testOther(primitive, ray, hit, shadow))
-
-  private def testOther(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
+  private def testShape(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     if primitive < firstInstance then
       val i = primitive - triangles
-      val mask = masks.ofShape(i)
+      val mask = masks(i)
       if mask eq SolidMask then ShapeGroup.intersect(shapes, i, ray, hit)
       else solid(shapes(i), i, primitive, mask, ray, hit, shadow)
     else if shadow then instances.isHit(primitive - firstInstance, ray, hit)
     else instances.intersect(primitive - firstInstance, ray, hit)
-
-  /** `hit` holds the previous hit only in closest-hit queries. */
-  private def triangle(slot: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
-    val number = if shadow then Int.MaxValue else order(slot)
-    TriangleTest.intersect(corners, 9 * slot, 1, number, ray, hit)
-
-  private def triangle(slot: Int, mask: Mask, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
-    val tMax = ray.tMax
-    val u = hit.u
-    val v = hit.v
-    if !triangle(slot, ray, hit, shadow) then false
-    else
-      val surfacePoint = hit.work
-      soup.surface(order(slot), hit, surfacePoint)
-      if mask.isHole(surfacePoint, ray, order(slot), shadow) then
-        ray.tMax = tMax
-        hit.u = u
-        hit.v = v
-        false
-      else true
 
   /** A shape may be hit again behind a cutout: the search continues with a ray spawned there. */
   private def solid(

@@ -18,9 +18,10 @@ final class Primitives(
   private val firstInstance = soup.count + shapes.length
   def count: Int = firstInstance + instances.count
 
-  /** Whether primitive `i` is an opaque triangle. */
-  def isSolidTriangle(i: Int): Boolean =
-    i < soup.count && (masks.isEmpty || (masks.ofMesh(soup.meshOf(i)) eq SolidMask))
+  def isTriangle(i: Int): Boolean = i < soup.count
+
+  /** The masks of triangles. */
+  private[accel] def maskedTriangles: MaskedTriangles = MaskedTriangles(soup, masks)
 
   /** Bounds of each primitive as six Floats: lower and upper corner. */
   def bounds: Array[Float] =
@@ -39,7 +40,10 @@ final class Primitives(
     // Other shapes have no corners, and there may be millions
     val corners = if soup.count == 0 then Array.emptyFloatArray else cornersOf(order, parallel)
     if masks.isEmpty then SolidPrimitives(order, corners, soup.count, shapes, instances)
-    else MaskedPrimitives(order, corners, soup, shapes, instances, masks)
+    else
+      MaskedPrimitives(
+        order, corners, maskedTriangles, soup.count, shapes, instances, masks.ofShape
+      )
 
   private def cornersOf(order: Array[Int], parallel: Parallel): Array[Float] =
     val corners = new Array[Float](Math.multiplyExact(9, order.length))

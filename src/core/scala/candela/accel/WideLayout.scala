@@ -20,7 +20,9 @@ private[accel] final class WideLayout(
 ):
   /** The hierarchy of primitives that it fits. */
   def withPrimitives(primitives: Primitives, parallel: Parallel): WideTree =
-    WideTree(width, lanes, count, bounds, nodes, root, blocks, primitives.packed(order, parallel))
+    val packed = primitives.packed(order, parallel)
+    val masked = primitives.maskedTriangles
+    WideTree(width, lanes, count, bounds, nodes, root, blocks, packed, masked)
 
   /** A layout of the primitives of both, below a new root. */
   def joined(other: WideLayout): WideLayout =

@@ -21,6 +21,7 @@ import candela.geometry.Bounds3
   * @param count  total number of primitives
   * @param root   encoded as a child
   * @param unblocked primitives outside blocks
+  * @param masked test those triangles, if any has a mask
   */
 private[accel] final class WideTree(
     val width: Int,
@@ -30,8 +31,11 @@ private[accel] final class WideTree(
     val nodes: Array[Float],
     val root: Int,
     val blocks: Array[Float],
-    val unblocked: PackedPrimitives
+    val unblocked: PackedPrimitives,
+    val masked: MaskedTriangles
 ):
+  val isMasked: Boolean = !masked.isEmpty
+
   /** The most entries of a traversal's stack: of each level of nodes, all children but one wait. */
   val stackSize: Int = WideTree.levels(nodes, width) * (width - 1) + 1
 

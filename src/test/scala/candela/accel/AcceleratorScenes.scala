@@ -2,8 +2,9 @@ package candela.accel
 
 import candela.accel.tracing.{Bvh, Grid}
 import candela.math.*
-import candela.shapes.Shape
+import candela.shapes.{Mesh, Shape, TriangleSoup}
 import candela.testing.{Draws, Soups}
+import candela.textures.ConstantFloat
 
 import scala.util.Random
 
@@ -102,6 +103,16 @@ object AcceleratorScenes:
     def down(p: Vec3) = Vec3(p.x, p.y, 0.25f)
     (down(t._1), down(t._2), down(t._3))
 
+  /** In three parts: solid, open behind, open at random. */
+  private def masked(triangles: Seq[Soups.Triangle]): Primitives =
+    val all = Soups.of(triangles)
+    val third = all.count / 3
+    val meshes =
+      Array(0, 1, 2).map(i => Mesh(0, i * third, third, Array.empty, Array.empty, false, 0, -1))
+    val soup = new TriangleSoup(all.positions, all.indices, meshes, tangents = true)
+    val masks = Array(SolidMask, FrontMask(SolidMask), StochasticMask(ConstantFloat(0.5f)))
+    Primitives(soup, Array.empty, Instances.Empty, Masks(masks, Array.empty))
+
   /** Sets of triangles alone: each hard in its own way. */
   def triangles: Seq[(String, Primitives)] =
     val draws = Draws(11)
@@ -138,6 +149,7 @@ object AcceleratorScenes:
         50,
         3e24f
       )(anywhere * 1e25f)),
+      "open behind, and half open" -> masked(Soups.randomTriangles(draws, 300, 0.7f)(anywhere)),
       "tiny" -> of(Soups.randomTriangles(draws, 50, 3e-18f)(anywhere * 1e-17f)),
       "one" -> of(Soups.randomTriangles(draws, 1, 1f)(Vec3.Zero))
     ) ++ all.filter(s => s._2.shapes.isEmpty && s._2.instances.count == 0)

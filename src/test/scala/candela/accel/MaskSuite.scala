@@ -2,7 +2,7 @@ package candela.accel
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.accel.tracing.{Bvh, Grid}
+import candela.accel.tracing.{Bvh, Grid, Hierarchies}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.{Disk, Mesh, TriangleSoup}
@@ -31,7 +31,12 @@ class MaskSuite extends AnyFunSuite:
     ray
 
   private val accelerators: Seq[(String, Primitives => Accelerator)] =
-    Seq("bvh" -> (Bvh(_)), "grid" -> (Grid(_)), "brute force" -> (BruteForce(_)))
+    Seq(
+      "bvh" -> (Bvh(_)),
+      "blocks" -> (Hierarchies.scalar(_)),
+      "grid" -> (Grid(_)),
+      "brute force" -> (BruteForce(_))
+    )
 
   for (name, make) <- accelerators do
     test(s"a surface that is open behind is met from the front only: $name"):

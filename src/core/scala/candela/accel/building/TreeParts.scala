@@ -65,7 +65,6 @@ private[building] object TreeParts:
       if i + 1 < starts.length then starts(i + 1)._1 else soup.count
     .toArray
     val sums = new Array[Byte](starts.length * Size)
-    val solid = new Array[Int](starts.length)
     def note(i: Int, parallel: Parallel): Unit =
       def ofNumbers =
         val vertices =
@@ -77,7 +76,6 @@ private[building] object TreeParts:
         Sha256.ofNumbers(numbers, parallel)
       val sum = soup.meshes.lift(i).flatMap(_.content).fold(ofNumbers)(Sha256.bytesOf)
       System.arraycopy(sum, 0, sums, Size * i, Size)
-      if ends(i) > starts(i)._1 && primitives.isSolidTriangle(starts(i)._1) then solid(i) = 1
     // A few large meshes, or many small ones
     if starts.length < 4 * parallel.threads then starts.indices.foreach(note(_, parallel))
     else parallel.forEach(starts.length)(note(_, Parallel.Alone))
@@ -88,8 +86,6 @@ private[building] object TreeParts:
       while i < until do
         primitives.writeBounds(boxes, 6 * i, soup.count + i)
         i += 1
-    val form = Sha256.ofNumbers(
-      Seq(Numbers(ends), Numbers(solid), Numbers(Array(otherCount))),
-      Parallel.Alone
-    )
+    val form =
+      Sha256.ofNumbers(Seq(Numbers(ends), Numbers(Array(otherCount))), Parallel.Alone)
     new TreeParts(ends, sums, boxes, Sha256.hex(form))

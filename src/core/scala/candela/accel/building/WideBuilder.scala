@@ -137,9 +137,9 @@ private[accel] object WideBuilder:
       parallel: Parallel,
       unsplit: Int
   ): Collapsed =
-    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle, unsplit)
+    val size = LeafSize(maxLeaf, lanes, primitives.isTriangle, unsplit)
     val built = BvhBuilder.ofRecords(records, size, parallel)
-    val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
+    val wide = WideBuilder(width, lanes, built, primitives.isTriangle, parallel)
     Collapsed(
       built.order.length,
       built.bounds,

@@ -117,7 +117,9 @@ private[tracing] object WideWalk:
             val k = bit & (FirstEdgeBit - 1)
             val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
             val isHit =
-              if marksEdges && bit < FirstEdgeBit then inside(corners + k, owner)
+              if tree.isMasked then
+                tree.masked.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
+              else if marksEdges && bit < FirstEdgeBit then inside(corners + k, owner)
               else TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
             if isHit then
               hit.primitive = owner
@@ -171,7 +173,10 @@ private[tracing] object WideWalk:
           candidateBits &= candidateBits - 1
           val k = bit & (FirstEdgeBit - 1)
           hasHit =
-            if marksEdges && bit < FirstEdgeBit then inside(corners + k, 0)
+            if tree.isMasked then
+              val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
+              tree.masked.isHit(tree.blocks, corners + k, lanes, owner, ray, hit)
+            else if marksEdges && bit < FirstEdgeBit then inside(corners + k, 0)
             else TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit)
           if hasHit then candidateBits = 0
       else
