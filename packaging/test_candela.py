@@ -320,6 +320,111 @@ class InMemory(unittest.TestCase):
                 with self.assertRaisesRegex(candela.UsageError, f"ends with {file.suffix}"):
                     scene.save(Path(folder) / ("a.pbrt", "a.xml")[i])
 
+    def test_a_scene_that_is_saved_elsewhere_names_the_same_files(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            old, below, apart = Path(folder, "a"), Path(folder, "a", "b"), Path(folder, "c & d")
+            for each in (below, apart):
+                each.mkdir(parents=True)
+            for name, level in (("a/grey.exr", 0.25), ("a/b/grey.exr", 0.9), ("c & d/grey.exr", 0.7)):
+                candela.Image(np.full((2, 2, 3), level, "f4")).save(Path(folder, name))
+            (old / "metal.spd").write_text("400 0.1 500 0.5 700 0.9")
+            (old / "lamp.xml").write_text(
+                '<scene version="3.0.0"><emitter type="envmap"><string name="filename" '
+                'value="grey.exr"/></emitter></scene>'
+            )
+            (old / "inc").mkdir()
+            (old / "inc" / "paint.pbrt").write_text(
+                'Texture "grey" "spectrum" "imagemap" # "string filename" "x"\n'
+                '"string filename" [ "grey.exr" ] "bool invert" false\n'
+                'Include "ball.pbrt"\n'
+            )
+            (old / "inc" / "ball.pbrt").write_text('Material "diffuse" "texture reflectance" "grey"\n')
+            mesh = candela.mesh([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 1, 2]])
+            (old / "mesh.ply").write_bytes(Path(mesh["filename"]).read_bytes())
+            of_dict = mitsuba()
+            of_dict["red"]["reflectance"] = {"type": "bitmap", "filename": "$name"}
+            of_dict["ball"] = {"type": "ply", "filename": "mesh.ply", "bsdf": {"type": "ref", "id": "red"}}
+            xml = XML.replace('<rgb name="reflectance" value="0.8, 0.2, 0.1"/>', """
+                <spectrum name="reflectance" filename="metal.spd"/>""")
+            xml = xml.replace('<emitter type="constant"/>', '<include filename="lamp.xml"/>')
+            pbrt = SCENE.replace('Material', 'Include "inc/paint.pbrt"\n#Material').replace(
+                '"rgb L" [ 2 2 2 ]', '"spectrum L" "metal.spd"').replace(
+                '24', '24 "bool savefp16" true "string filename" "out.exr"')
+            before = os.getcwd()
+            self.addCleanup(os.chdir, before)
+            os.chdir(old)
+            texts = ((of_dict, {"define": {"name": "grey.exr"}}), (xml, {}), (pbrt, {}))
+            for i, (given, options) in enumerate(texts):
+                is_dict = isinstance(given, dict)
+                scene = candela.load_dict(given) if is_dict else candela.load_string(given)
+                suffix = ".pbrt" if given is pbrt else ".xml"
+                image = scene.render(spp=2, **options).rgb
+                for at in (".", "b", "../c & d", "b"):
+                    file = os.path.join(at, f"s{i}{suffix}")
+                    scene.save(file)
+                    scene = candela.load_file(file)  # and saved from there
+                    np.testing.assert_array_equal(scene.render(spp=2, **options).rgb, image)
+                    self.assertEqual("out.exr" in Path(file).read_text(), given is pbrt)
+            self.assertIn('<path value=".."/>', Path("b/s1.xml").read_text())
+
+    def test_a_scene_keeps_its_folder_and_its_text(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            here, there = Path(folder, "a"), Path(folder, "b")
+            for each, level in ((here, 0.25), (there, 0.9)):
+                each.mkdir()
+                candela.Image(np.full((2, 2, 3), level, "f4")).save(each / "grey.exr")
+            of_dict = mitsuba()
+            of_dict["red"]["reflectance"] = {"type": "bitmap", "filename": "grey.exr"}
+            before = os.getcwd()
+            self.addCleanup(os.chdir, before)
+            os.chdir(here)
+            Path("s.pbrt").write_text(SCENE)
+            candela.load_dict(of_dict).save("s.xml")
+            (there / "s.xml").write_text(XML)
+            (there / "s.pbrt").write_text(SCENE.replace("0.2 0.4 0.6", "0.9 0.9 0.9"))
+            scenes = [candela.load_dict(of_dict), candela.load_string(Path("s.xml").read_text())]
+            scenes += [candela.load_file("s.xml"), candela.load_file("s.pbrt")]
+            images = [scene.render(spp=1).rgb for scene in scenes]
+            os.chdir(there)
+            for scene, image in zip(scenes, images):
+                np.testing.assert_array_equal(scene.render(spp=1).rgb, image)
+            (here / "s.xml").write_text(XML)  # it has been read
+            np.testing.assert_array_equal(scenes[2].render(spp=1).rgb, images[2])
+            scenes[2].parameters()["red.reflectance.filename"] = "grey.exr"
+            np.testing.assert_array_equal(scenes[2].render(spp=1).rgb, images[2])
+            for missing in ("t.xml", "t.pbrt", "t.gltf"):
+                with self.assertRaises(candela.MissingFileError) as caught:
+                    candela.load_file(missing)
+                self.assertEqual(caught.exception.file, missing)
+            os.chdir(before)
+            candela.close()
+
+    def test_values_that_have_no_text_are_told_of(self):
+        class Broken:
+            def __repr__(self):
+                raise RuntimeError("internal error")
+
+            def __iter__(self):
+                raise RuntimeError("internal error")
+
+        class TensorXf(Broken):
+            def __array__(self, dtype=None, copy=None):
+                return np.zeros(0)
+
+        TensorXf.__module__ = "drjit.scalar"
+        scene = mitsuba()
+        scene["red"]["reflectance"] = {"type": "bitmap", "data": TensorXf()}
+        scene["ball"]["radius"] = Broken()
+        scene["sky"]["radiance"] = []
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(scene)
+        told = {p.key: p.message for p in caught.exception.problems}
+        self.assertIn("the tensor is empty", told["red.reflectance.data"])
+        self.assertIn("Broken", told["ball.radius"])
+        self.assertIn("found []", told["sky.radiance"])
+        with self.assertRaisesRegex(ValueError, "Broken"):
+            candela.mesh(Broken(), [[0, 1, 2]])
+
     def test_values_that_the_scene_has_not_are_told_of(self):
         values = candela.load_string(XML).parameters()
         with self.assertRaisesRegex(KeyError, "did you mean 'red.reflectance.value'"):

@@ -114,6 +114,8 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
     """
     _need_numpy()
     array = np.array(values)
+    if array.size == 0 and type(values).__module__.startswith("drjit"):
+        raise ValueError("the tensor is empty (Mitsuba's load_dict takes its values)")
     gamma = getattr(values, "srgb_gamma", None)
     if callable(gamma):
         if array.ndim == 3 and array.shape[2] in (2, 4):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import os
 import re
 import sys
 from dataclasses import dataclass
@@ -171,6 +173,13 @@ _MISSING = re.compile("^E010[14] |: no such folder: ")
 def missing(path: str) -> MissingFileError:
     message = f"no such file or folder: `{path}`"
     text = f"error: {message} [E0104]"
+    try:
+        names = os.listdir(os.path.dirname(path) or ".")
+    except OSError:
+        names = []
+    near = difflib.get_close_matches(os.path.basename(path), names, 1)
+    if near:
+        text += f"\n did you mean `{os.path.join(os.path.dirname(path), near[0])}`?"
     return MissingFileError(text, (Problem("error", message, text, path, number="E0104"),))
 
 

@@ -11,7 +11,7 @@ from typing import Any, Dict, Iterable, List, Optional, Union
 
 from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python, user_frame
 from ._image import Image, load
-from ._scene import Scene, load_dict, load_file
+from ._scene import Scene, load_dict
 from ._session import Listener, execute
 from ._values import described, plain
 
@@ -108,7 +108,7 @@ def version() -> str:
 def _scene(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
     if isinstance(scene, dict):
         return load_dict(scene)
-    return scene if isinstance(scene, Scene) else load_file(scene)
+    return scene if isinstance(scene, Scene) else Scene(os.fspath(scene), None)
 
 
 def _words(options: "dict[str, Value]") -> List[str]:

@@ -7,7 +7,7 @@ import shutil
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
-from . import _xml
+from . import _files, _xml
 from ._errors import CandelaError, Keys, Problem, SceneError, UsageError, missing
 from ._parameters import Parameters
 
@@ -25,11 +25,20 @@ class Scene:
     """
 
     def __init__(self, name: str, text: Optional[str], tree: Optional[Element] = None) -> None:
-        self._name = name  # the file, or the name in messages
+        self._given = name  # the file, or the name in messages
+        self._start = os.getcwd()  # the folder that relative names are of
         self._text = text  # None: that of the file, or of the tree
         self._tree = tree
         self._of_dict = tree is not None
         self._parameters: Optional[Parameters] = None
+
+    @property
+    def _name(self) -> str:
+        """A name for the program, which is in the current folder."""
+        if os.getcwd() == self._start:
+            given = self._given
+            return os.path.join(".", given) if given.startswith("-") else given
+        return os.path.join(self._start, self._given)
 
     @property
     def is_mitsuba(self) -> bool:
@@ -50,9 +59,12 @@ class Scene:
     def parameters(self) -> Parameters:
         """The values of the scene by their names; see ``candela.traverse``."""
         if not self.is_mitsuba:
+            is_pbrt = self._name.lower().endswith((".pbrt", ".pbrt.gz"))
             raise UsageError(
                 "scenes of pbrt's format have no parameters: write $name in the text, and give its "
                 "value to render, as define={'name': 3}"
+                if is_pbrt
+                else f"`{self._name}` has no parameters: Mitsuba's XML files and dicts have them"
             )
         if self._tree is None:
             try:
@@ -69,20 +81,34 @@ class Scene:
         if self._text is not None:
             return self._text
         if self._name.lower().endswith(".gz"):
-            raise UsageError(f"{self._name} is packed: unpack it to change its values")
+            raise UsageError(f"{self._name} is packed: unpack it first")
         try:
             with open(self._name, encoding="utf-8") as file:
                 return file.read()
         except FileNotFoundError:
             raise missing(self._name) from None
+        except UnicodeDecodeError:
+            raise UsageError(f"{self._name} is no text in UTF-8") from None
+
+    def read(self) -> None:
+        """Reads the file, if it is Mitsuba's; what can't be read is told where it is rendered."""
+        if not os.path.exists(self._name):
+            raise missing(self._name)
+        if self._name.lower().endswith(".xml"):
+            try:
+                self._text = self._whole()
+            except (OSError, UsageError):
+                pass
 
     def _changed(self) -> None:
         if not self._of_dict and self._tree is not None:
             self._text = _xml.to_text(self._tree)
 
     def save(self, path: PathLike) -> None:
-        """Writes its text, Mitsuba's XML if it is a dict's, and its arrays, to files beside it;
-        files that it names are not copied.
+        """Writes its text, Mitsuba's XML if it is a dict's, and its arrays, to files beside it.
+        Files that it names are not copied: names that are relative to its folder are so to the
+        new one, or absolute; files of pbrt's format that it includes, and that name others, are
+        written beside it, too.
         """
         target = os.fspath(path)
         text = self.source()[1] or self._whole()
@@ -90,13 +116,18 @@ class Scene:
         if not target.lower().endswith(suffix.lower()):
             raise UsageError(f"the scene needs a name that ends with {suffix}, found `{target}`")
         files = _xml.arrays(self._tree)
+        folders = [os.path.dirname(name) or "." for name in (self._name, target)]
+        text, copies = _files.moved(text, self.is_mitsuba, *folders)
         try:
             with open(target, "w", encoding="utf-8") as file:
                 file.write(_xml.saved(text, files))
         except FileNotFoundError:
             raise missing(target) from None
         for each in files:
-            shutil.copyfile(each, os.path.join(os.path.dirname(target), each.saved_name))
+            shutil.copyfile(each, os.path.join(folders[1], each.saved_name))
+        for name, data in copies.items():
+            with open(os.path.join(folders[1], name), "wb") as copy:
+                copy.write(data)
 
     def render(self, **options: Any) -> Image:
         """The image; see ``candela.render``."""
@@ -168,8 +199,12 @@ def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:
 
 
 def load_file(path: PathLike) -> Scene:
-    """The scene of a file, which is read when it is rendered, or its values are asked for."""
-    return Scene(os.fspath(path), None)
+    """The scene of a file. Mitsuba's XML is read at once, without the files that it names; all
+    others whenever they are rendered.
+    """
+    scene = Scene(os.fspath(path), None)
+    scene.read()
+    return scene
 
 
 def traverse(scene: Scene) -> Parameters:

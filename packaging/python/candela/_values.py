@@ -32,4 +32,7 @@ def described(value: Any) -> str:
         inner = inner[0]
     if math.prod(sizes) > _SHOWN:
         return f"a list of {' × '.join(map(str, sizes))} values"
-    return f"{value!r:.80}"
+    try:
+        return f"{value!r:.80}"
+    except Exception:  # of a value that another library has emptied, for example
+        return f"a {type(value).__module__}.{type(value).__qualname__}"

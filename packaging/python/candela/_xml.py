@@ -100,7 +100,9 @@ def element_of(name: str, value: Any, key: str, faults: List[Problem]) -> Option
         return element
     try:
         items = [float(x) for x in value]
-    except (TypeError, ValueError):
+        if not items:
+            raise ValueError
+    except Exception:  # other libraries have their own
         hint = ": use its dict" if type(value).__module__.startswith("mitsuba") else ""
         wrong(f"expected a number, a text, a dict or a transform, found {described(given)}{hint}")
         return None
