@@ -14,8 +14,9 @@ private[image] object CutFile:
   def remark(suffix: String, start: Array[Byte], end: Array[Byte], size: Long): Option[String] =
     val buffer = ByteBuffer.wrap(start).order(ByteOrder.LITTLE_ENDIAN)
     val isCut = suffix match
-      case "jpg" | "jpeg" => !hasEndOfImage(end)
-      case "bmp" => start.length >= BmpHeader && size < bmpSize(buffer)
+      // Files of other formats are read as what they are
+      case "jpg" | "jpeg" => start.startsWith(JpegMark) && !hasEndOfImage(end)
+      case "bmp" => start.startsWith(BmpMark) && start.length >= BmpHeader && size < bmpSize(buffer)
       case "tga" => start.length >= TgaHeader && size < tgaSize(buffer)
       case _ => false
     Option.when(isCut)(Missing)
@@ -33,6 +34,8 @@ private[image] object CutFile:
 
   private val Missing = "the file is cut short: some of its pixels are missing"
   private val QoiMark = "qoif".getBytes
+  private val BmpMark = "BM".getBytes
+  private val JpegMark = Array(0xff, 0xd8).map(_.toByte)
   private val PackedTgas = Set(9, 10, 11)
 
   /** Whether packets of pixels end before the image does. */

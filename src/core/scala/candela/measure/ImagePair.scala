@@ -60,7 +60,9 @@ object ImagePair:
   def apply(image: Image, reference: Image): ImagePair =
     this.of(image, reference, commonChannels(image, reference))
 
-  /** Pairs the named channels only. */
+  /** Pairs the named channels only: those of a layer, such as `Denoised.R`, with `R` of a reference
+    * that lacks the layer.
+    */
   def of(image: Image, reference: Image, channels: Vector[String]): ImagePair =
     if image.width != reference.width || image.height != reference.height then
       def size(i: Image) = s"${i.width}×${i.height}"
@@ -70,7 +72,14 @@ object ImagePair:
           s"with --resolution ${reference.width}x${reference.height}, or cut the larger one " +
           "with `candela image --crop x0,x1,y0,y1`"
       )
-    new ImagePair(picked(image, channels), picked(reference, channels))
+    val chosen = picked(image, channels, "image")
+    if channels.forall(reference.channelNames.contains) then
+      new ImagePair(chosen, picked(reference, channels, "reference"))
+    else
+      val plain = channels.map(c => c.drop(c.lastIndexOf('.') + 1))
+      val renamed =
+        Image(chosen.width, chosen.height, plain, chosen.data, colorSpace = image.colorSpace)
+      new ImagePair(picked(renamed, plain, "image"), picked(reference, plain, "reference"))
 
   private def commonChannels(image: Image, reference: Image): Vector[String] =
     val isColor = image.indicesOf(Image.RgbNames).isDefined &&
@@ -84,7 +93,7 @@ object ImagePair:
         s"image channels differ: ${list(image)} and ${list(reference)}"
       )
 
-  private def picked(image: Image, names: Vector[String]): Image =
+  private def picked(image: Image, names: Vector[String], role: String): Image =
     val isConverted = names == Image.RgbNames && !image.colorSpace.isSrgb
     val linear = if isConverted then image.toRgb else image.premultiplied
     if linear.channelNames == names then linear
@@ -94,7 +103,7 @@ object ImagePair:
         val available = linear.channelNames.mkString(", ")
         throw ImageError(
           Code.DifferentImages,
-          s"unknown channel ${missing.mkString(", ")}; known: $available"
+          s"the $role has no channel ${missing.mkString(", ")}; known: $available"
         )
       val sources = names.map(linear.channelNames.indexOf).toArray
       val count = names.size

@@ -191,6 +191,16 @@ class DamagedFilesSuite extends AnyFunSuite:
             told
           )
 
+  test("a whole image with the suffix of another format is not called cut short"):
+    TempFolder.use: folder =>
+      val png = folder.resolve("a.png")
+      ImageFiles.write(png, Image.rgb(3, 2))
+      for name <- Vector("b.jpg", "b.jpeg", "b.bmp", "b.tga") do
+        val _ = Files.copy(png, folder.resolve(name))
+        val scene = Files.writeString(folder.resolve("s.pbrt"), texture(name))
+        val (code, captured) = Captured.run("check", s"$scene")
+        assert(code == 0 && captured.err == "", name): Unit
+
   test("view and image blame the image without colours, not their output"):
     TempFolder.use: folder =>
       val file = folder.resolve("z.exr")

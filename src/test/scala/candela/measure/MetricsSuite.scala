@@ -59,6 +59,18 @@ class MetricsSuite extends AnyFunSuite:
     val gray = Image(3, 2, Vector("Y"), new Array[Float](6))
     assert(error(wide, gray) == "image channels differ: R, G, B and Y")
 
+  test("channels of a layer are those without it of a reference that lacks the layer"):
+    val names = Vector("R", "G", "B", "Denoised.R", "Denoised.G", "Denoised.B")
+    val image = Image(1, 1, names, Array(9f, 9f, 9f, 0.1f, 0.2f, 0.3f))
+    val layer = names.drop(3)
+    val plain = ImagePair.of(image, rgb(1, 0.1f, 0.2f, 0.5f), layer)
+    assert(plain.channels == Image.RgbNames)
+    assert(plain.difference.data.toVector == Vector(0f, 0f, 0.5f - 0.3f))
+    assert(ImagePair.of(image, image, layer).channels == layer)
+    val mute = Image(1, 1, Vector("Y"), Array(0f))
+    val error = intercept[ImageError](ImagePair.of(image, mute, layer)).getMessage
+    assert(error == "the reference has no channel R, G, B; known: Y")
+
   test("colours are compared by name, other channels ignored, and encoded pictures decoded"):
     val bgra = Image(1, 1, Vector("B", "G", "R", "A"), Array(0.3f, 0.2f, 0.1f, 1f))
     assert(Metrics.compare(bgra, rgb(1, 0.1f, 0.2f, 0.3f)).mse == 0)

@@ -33,7 +33,12 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
       range = Range.atLeast(0f).limited
     )(0f)
   private val focus =
-    float("focaldistance", "distance to the plane in focus", unit = "scene units")(
+    float(
+      "focaldistance",
+      "distance to the plane in focus",
+      unit = "scene units",
+      range = Range.above(0f).unclamped
+    )(
       if v2 then 1e30f else 1e6f
     )
   noMeaning("parameter of pbrt-v1; nothing is clipped")(

@@ -124,7 +124,9 @@ private[candela] object FileRegister:
     WholeFile.obstacle(file).map(unwritable(file, _))
 
   private def unwritable(file: Path, why: String): Problem =
-    Problem.general(Code.Unwritable, s"can't write `$file`: $why", Some("choose another file"))
+    val cure = if why.startsWith("no such folder") then "make the folder, or " else ""
+    val help = Some(cure + "choose another file")
+    Problem.general(Code.Unwritable, s"can't write `$file`: $why", help)
 
   /** A path that all names of a file have, by links or in other cases, whether it exists or not.
     * None for pipes and devices.

@@ -149,7 +149,7 @@ private[cli] object UsageErrors:
     val words = what.split("[^A-Za-z0-9-]+").toVector
       .filter(w => w.length > 2 && !Prose(w) && w.exists(_.isLetter))
     val nearest = if found.length > 2 then Suggest.nearest(found, words) else None
-    nearest.fold("")(w => s"; did you mean `$w`?")
+    nearest.filter(_ != found).fold("")(w => s"; did you mean `$w`?")
 
   private val Prose = Set("one", "more", "with", "and", "above", "names", "such", "likewise")
 

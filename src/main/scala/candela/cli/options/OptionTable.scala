@@ -160,8 +160,11 @@ private[candela] object OptionTable extends OptionRows:
       .action((f, o) => o.copy(outfiles = Vector(f)))
   )
 
+  private val target: TextForm[Dialect] =
+    TextForm("v4 or v3", t => Dialect.ofPbrt.find(_.toString.equalsIgnoreCase(t)), _.toString)
+
   val convert: Vector[Row] = Vector(
-    opt[Dialect]("to").valueName("v4|v3")
+    opt[Dialect]("to")(using reading(target)).valueName("v4|v3")
       .text("target dialect (default: the scene's own, which reformats it)")
       .action((d, o) => o.copy(to = Some(d))),
     opt[String]('o', "outfile").valueName("FILE")

@@ -127,7 +127,12 @@ class CompareCommandSuite extends AnyFunSuite:
       // one of 32 pixels is off by 1/2
       assert(green(1) == "0.007813" && green.last == "1.0313")
       assert(run(a, b, "--channels", "R,B")._2.out.contains("\nMSE           0.000"))
-      assert(run(a, b, "--channels", "Z")._2.err.contains("unknown channel Z; known: R, G, B"))
+      assert(run(
+        a,
+        b,
+        "--channels",
+        "Z"
+      )._2.err.contains("the image has no channel Z; known: R, G, B"))
 
   test("difference and heat map show where the pictures differ"):
     TempFolder.use: folder =>

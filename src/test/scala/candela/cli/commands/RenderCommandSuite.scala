@@ -294,7 +294,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val captured = Captured()
       assert(run(captured, loader, "s.pbrt", "--outfile", s"$folder/none/b.exr") == 1)
       val message = s"error: can't write `$folder/none/b.exr`: no such folder"
-      assert(captured.err.startsWith(message))
+      assert(captured.err.startsWith(message) && captured.err.contains(" make the folder, or "))
       assert(loader.loaded.isEmpty)
 
   test("a rendering that fails leaves the image that was there, and no other file"):

@@ -157,6 +157,8 @@ class CommandLineSuite extends AnyFunSuite:
     "--cropwindow 0,1,0 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
     "--cropwindow 0,2,0,1 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
     "--cropwindow 0,NaN,0,1 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
+    "--fireflies clamp a.pbrt" -> "found `clamp`",
+    "convert --to v5 a.pbrt" -> "--to must be v4 or v3, found `v5`",
     "--dialect v5 a.pbrt" -> "--dialect must be v2, v3 or v4, found `v5`",
     "--light-groups types a.pbrt" -> "--light-groups must be statement, type, or names",
     "--light-groups key=a,b a.pbrt" -> "--light-groups must be statement, type, or names",
