@@ -4,6 +4,8 @@ import candela.diagnostics.Code
 
 /** The field of view of cameras and projectors, by an angle or a focal length. */
 private[mitsuba] object FieldOfView:
+  /** Instead of one that is none, in degrees: one error is enough. */
+  private val StandIn = 90.0
 
   /** Angle along the shorter side, in degrees.
     *
@@ -18,13 +20,15 @@ private[mitsuba] object FieldOfView:
     def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
     // Half of the width at distance 1
     val halfWidth = (in.number("fov"), focal) match
-      case (Some(degrees), _) =>
-        if !(degrees > 0 && degrees < 180) then
+      case (Some(written), _) =>
+        val isAngle = written > 0 && written < 180
+        if !isAngle then
           session.error(
             Code.ParameterValue,
             in.posOf("fov"),
-            "`fov` must be between 0 and 180 degrees"
+            s"`fov` must be between 0 and 180 degrees, found ${Properties.text(written)}"
           )
+        val degrees = if isAngle then written else StandIn
         axis match
           case "x" => tan(degrees)
           case "y" => tan(degrees) * aspect

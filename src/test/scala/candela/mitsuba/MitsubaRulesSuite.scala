@@ -53,6 +53,12 @@ class MitsubaRulesSuite extends AnyFunSuite:
     assert(!warnings(ball, "0.6.0").exists(_.message.contains("#ff8000")))
     assert(!warnings(ball.replace("#ff8000", "1,.5,0")).exists(_.message.contains("takes no")))
 
+  test("a field of view that is none is one error, and no warning of another number"):
+    inFile(sensor().replace("\"40\"", "\"-5\"")): scene =>
+      val message = "`fov` must be between 0 and 180 degrees, found -5"
+      assert(scene.errors.map(_.message) == Vector(message))
+      assert(scene.camera.get.param("fov").get.floats.forall(a => a > 0 && a < 180))
+
   test("a number of samples that becomes a square is a warning"):
     def counted(count: Int) =
       val text = sensor().replace("independent", "multijitter").replace("\"64\"", s"\"$count\"")
