@@ -2,8 +2,14 @@ package candela.api
 
 import candela.diagnostics.SourcePos
 import candela.io.SceneFolder
-import candela.scenefile.{GivenStatement, InstanceList, Param, StatementRunner}
+import candela.job.FilmHeaders
+import candela.math.Transform
+import candela.mitsuba.SensorAxes
+import candela.scenefile.{
+  AnimatedTransform, Dialect, GivenStatement, GraphicsState, InstanceList, Param, StatementRunner
+}
 
+import java.util.Objects
 import java.util.function.UnaryOperator
 
 /** Builds a scene from statements of pbrt-v4, or edits another scene. Names, parameters and values
@@ -24,7 +30,7 @@ import java.util.function.UnaryOperator
   * Mutable, for one thread; each method returns the builder itself.
   */
 final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: Option[Scene]):
-  private val runner = StatementRunner(folder, base.flatMap(_.description))
+  private val runner = StatementRunner(folder, base.flatMap(_.description), placed)
   private val sum = StatementSum()
   private val idle = IdleStatements()
   private var shownName = name
@@ -56,7 +62,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   /** An `Option` of pbrt-v4: one parameter. */
   def option(parameter: Parameters): SceneBuilder =
-    for p <- parameter.located(position) do
+    for p <- located(parameter, position) do
       run(GivenStatement(
         "Option",
         p.pos,
@@ -162,7 +168,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   ): SceneBuilder =
     val pos = position
     val texts = Vector(name, values.toString.toLowerCase, kind)
-    run(GivenStatement("Texture", pos, texts = texts, params = parameters.located(pos)))
+    run(GivenStatement("Texture", pos, texts = texts, params = located(parameters, pos)))
 
   /** Names a medium, for [[mediumInterface]]. */
   def nameMedium(name: String, kind: String, parameters: Parameters): SceneBuilder =
@@ -230,7 +236,9 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def changeTexture(name: String, parameters: Parameters): SceneBuilder =
     edited("change texture", name, parameters)(SceneEdits.texture(name, _))
 
-  /** Moves the camera to the current transform; it keeps its parameters. */
+  /** Moves the camera to the current transform; it keeps its parameters. In a scene of Mitsuba or a
+    * model, `lookAt` sees what that format's own does, without mirroring.
+    */
   def placeCamera(): SceneBuilder =
     val statement = GivenStatement("place camera", SourcePos.Nowhere)
     sum.add(statement)
@@ -258,7 +266,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
     val description = runner.result
     val completed = description.copy(
       folder = folder,
-      unfiled = description.unfiled :+ ("statements" -> sum.digest),
+      unfiled = description.unfiled :+ (FilmHeaders.Statements -> sum.digest),
       warnings = description.warnings ++ idle.warnings(isEdit = base.nonEmpty)
     )
     Scenes.built(shownName, completed, base.fold(ReadSettings())(_.reading))
@@ -268,7 +276,20 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
     val description = runner.result
     Shown("SceneBuilder", Shown.contents(shownName, description)*)
 
+  /** The view of a camera: those of Mitsuba and glTF are right-handed, pbrt's are left-handed. */
+  private def placed(kind: String, view: AnimatedTransform): AnimatedTransform =
+    def from(axes: Transform) = GraphicsState.constant(axes.inverse).after(view)
+    base.flatMap(_.description).map(_.dialect) match
+      case Some(Dialect.Mitsuba) => from(SensorAxes.of(kind))
+      case Some(Dialect.Gltf) => from(SensorAxes.Plain)
+      case _ => view
+
+  private def located(parameters: Parameters, at: SourcePos): Vector[Param] =
+    Objects.requireNonNull(parameters, "parameters").located(at)
+
   private def run(statement: GivenStatement): SceneBuilder =
+    for text <- statement.texts do
+      Objects.requireNonNull(text, s"a name or type of ${statement.directive}"): Unit
     sum.add(statement)
     idle.note(statement)
     runner.run(statement)
@@ -289,19 +310,19 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
     val at = position
     for
       scene <- base.flatMap(_.description)
-      warning <- SceneEdits.dropped(which, parameters.located(at), at, scene)
+      warning <- SceneEdits.dropped(which, located(parameters, at), at, scene)
     do runner.report(warning)
     if which == SceneSetting.Film then warnOfSize(parameters)
     named(directive, kind, parameters)
 
   private def warnOfSize(parameters: Parameters): Unit =
     val at = position
-    for warning <- base.flatMap(SceneEdits.resized(_, parameters.located(at), at)) do
+    for warning <- base.flatMap(SceneEdits.resized(_, located(parameters, at), at)) do
       runner.report(warning)
 
   private def named(directive: String, name: String, parameters: Parameters): SceneBuilder =
     val pos = position
-    run(GivenStatement(directive, pos, texts = Vector(name), params = parameters.located(pos)))
+    run(GivenStatement(directive, pos, texts = Vector(name), params = located(parameters, pos)))
 
   private def typed(
       directive: String,
@@ -310,14 +331,14 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       parameters: Parameters
   ): SceneBuilder =
     val pos = position
-    val params = Param.string("type", pos, kind) +: parameters.located(pos)
+    val params = Param.string("type", pos, kind) +: located(parameters, pos)
     run(GivenStatement(directive, pos, texts = Vector(name), params = params))
 
   private def edited(what: String, name: String, parameters: Parameters)(
       f: Vector[Param] => SceneEdits.Edit
   ): SceneBuilder =
     val pos = position
-    val params = parameters.located(pos)
+    val params = located(parameters, pos)
     sum.add(GivenStatement(what, pos, texts = Vector(name), params = params))
     runner.change(pos)(f(runner.checked(params)))
     this

@@ -75,6 +75,12 @@ object FilmHeaders:
     s"${plan.width}x${plan.height}, pixels $x0 to $x1, $y0 to $y1, " +
       (if plan.sharesSamples then "splatted" else "one pixel each")
 
+  /** Name, among a film's digests, of that of statements that a program has made. */
+  val Statements = "statements"
+
+  /** Whether a program has made the scene, or edited it. */
+  def isMadeInCode(header: FilmHeader): Boolean = header.files.exists(_._1 == Statements)
+
   /** SHA-256 of the scene's files, as they were read, by their names relative to the scene's
     * folder, and of what is in no file. Those of scene files are of what they say.
     */

@@ -233,7 +233,7 @@ object SensorAxes:
   def of(sensor: String): Transform = if sensor == "spherical" then Panorama else Plain
 
   /** Mitsuba's x points left, pbrt's right. */
-  private val Plain = Transform.scale(-1, 1, 1).get
+  val Plain: Transform = Transform.scale(-1, 1, 1).get
 
   /** The azimuth of panoramas begins at Mitsuba's −z, at pbrt's x. */
   private val Panorama =

@@ -13,13 +13,15 @@ import candela.math.Transform
   * @param isV4 queried only where the dialects differ in the meaning of a statement
   * @param problem receives errors and warnings that don't abort the statement
   * @param foreign dialect of the declarations, if not that of the scene
+  * @param placed the view of a type of camera that is placed by a transform
   */
 final class SceneWriter(
     folder: SceneFolder,
     evidence: DialectGuess,
     isV4: () => Boolean,
     problem: Problem => Unit,
-    foreign: Option[Dialect] = None
+    foreign: Option[Dialect] = None,
+    placed: (String, AnimatedTransform) => AnimatedTransform = (_, view) => view
 ):
   private val names = UniqueNames()
   private val textures = Vector.newBuilder[TextureDescription]
@@ -38,9 +40,7 @@ final class SceneWriter(
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4, folder = folder)
 
-  /** Whether it began with another scene. */
-  private var isBased = false
-
+  private var isBased = false // whether it began with another scene
   val blocks: Blocks = Blocks(isV4, problem)
 
   /** Position of `WorldBegin` and of `WorldEnd`, once read. */
@@ -139,11 +139,12 @@ final class SceneWriter(
     result = directive match
       case "Camera" =>
         if result.camera.isEmpty then mediaBeforeCamera ++= media.keys
+        result = result.copy(camera = d)
         // That of an edited scene stays where it is, unless a transform is given
         if !isBased || (state.transform ne GraphicsState.Identity) then
           placeCamera()
           result = result.copy(cameraMedium = state.outsideMedium)
-        result.copy(camera = d)
+        result
       case "Film" => result.copy(film = d)
       case "Sampler" => result.copy(sampler = d)
       case "PixelFilter" => result.copy(filter = d)
@@ -204,8 +205,9 @@ final class SceneWriter(
 
   /** Where the camera is, by the current transform. */
   def placeCamera(): Unit =
-    coordinateSystems("camera") = GraphicsState.inverse(state.transform)
-    result = result.copy(worldToCamera = state.transform)
+    val view = placed(result.camera.fold("")(_.name), state.transform)
+    coordinateSystems("camera") = GraphicsState.inverse(view)
+    result = result.copy(worldToCamera = view)
 
   def option(param: Param): Unit = result = result.copy(options = result.options :+ param)
 

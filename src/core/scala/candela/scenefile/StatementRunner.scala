@@ -22,15 +22,20 @@ final case class GivenStatement(
   * @param folder that file names are relative to
   * @param base   the scene that the statements add to, if any: of what there is once, they replace
   *               its own
+  * @param placed the view of a type of camera that is placed by a transform
   */
-final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] = None):
+final class StatementRunner(
+    folder: SceneFolder,
+    base: Option[SceneDescription] = None,
+    placed: (String, AnimatedTransform) => AnimatedTransform = (_, view) => view
+):
   private val problems = Problems()
   private val values = ValueReader(problems.add, () => true)
   private var failedKinds = Set.empty[NameKind]
 
   /** Statements of older dialects have other meanings. */
   private val foreign = base.map(_.dialect).filter(_ != Dialect.V4).map(_ => Dialect.V4)
-  private val scene = SceneWriter(folder, DialectGuess(), () => true, problems.add, foreign)
+  private val scene = SceneWriter(folder, DialectGuess(), () => true, problems.add, foreign, placed)
   base.foreach(scene.startFrom)
 
   def run(statement: GivenStatement): Unit =

@@ -146,6 +146,30 @@ class SceneBuilderSuite extends AnyFunSuite:
     val empty = start.edit().removeLights().removeShapes().scene()
     assert(image(empty).forall(_ == 0f))
 
+  test("a camera that is placed in a scene of Mitsuba or a model sees what theirs sees"):
+    val eye = "1 2 5  0 0 0  0 1 0"
+    def placed(start: Scene) = start.edit().lookAt(1, 2, 5, 0, 0, 0, 0, 1, 0)
+    for sensor <- Vector("perspective", "orthographic", "spherical") do
+      val start = Candela.parse(SceneBuilderSuite.mitsuba(sensor))
+      assert(start.dialect == "mitsuba" && !start.hasErrors, start.problems)
+      assert(image(placed(start).placeCamera().scene()) == image(start), sensor)
+      val anew = placed(start).camera(sensor, Parameters()).scene()
+      val there = start.edit().camera(sensor, Parameters()).scene()
+      assert(image(anew) == image(there), sensor)
+    TempFolder.use: folder =>
+      val model = Path.of("scenes/models/gl-shapes.gltf")
+      val camera = Files.writeString(folder.resolve("a.pbrt"), s"Scale -1 1 1 LookAt $eye\n")
+      def read(settings: ReadSettings) =
+        Candela.read(model, settings.withOption("resolution", "24x16"))
+      val viewed = read(ReadSettings().withOption("camera", camera.toString))
+      val once = RenderSettings(samples = 1)
+      val edited = placed(read(ReadSettings())).placeCamera().scene()
+      assert(viewed.dialect == "gltf" && image(edited, once) == image(viewed, once))
+      // Statements of a file say themselves what they mirror
+      val text = Candela.parse(LibraryScenes.text())
+      val plain = LibraryScenes.text().replace("LookAt 0 1 -6  0 0 0  0 1 0", s"LookAt $eye")
+      assert(image(placed(text).placeCamera().scene()) == image(Candela.parse(plain)))
+
   test("a new camera without a transform is where the scene's is"):
     val start = Candela.parse(LibraryScenes.text())
     val wide = Parameters().number("fov", 70)
@@ -296,6 +320,23 @@ class SceneBuilderSuite extends AnyFunSuite:
     assert(shown.size > 10, shown)
 
 object SceneBuilderSuite:
+  private def mitsuba(sensor: String) =
+    s"""<scene version="3.0.0">
+      |  <integrator type="path"/>
+      |  <sensor type="$sensor">
+      |    <transform name="to_world"><lookat origin="1,2,5" target="0,0,0" up="0,1,0"/></transform>
+      |    <film type="hdrfilm"><integer name="width" value="24"/>
+      |      <integer name="height" value="16"/></film>
+      |    <sampler type="independent"><integer name="sample_count" value="2"/></sampler>
+      |  </sensor>
+      |  <emitter type="constant"><rgb name="radiance" value="0.2 0.3 0.4"/></emitter>
+      |  <shape type="sphere"><float name="radius" value="0.5"/>
+      |    <bsdf type="diffuse"><rgb name="reflectance" value="0.9 0.1 0.1"/></bsdf></shape>
+      |  <shape type="sphere"><point name="center" x="0.7" y="0.2" z="0"/>
+      |    <float name="radius" value="0.3"/></shape>
+      |</scene>
+      |""".stripMargin
+
   private val old =
     """Film "image" "integer xresolution" 24 "integer yresolution" 16
       |LookAt 0 1 -6  0 0 0  0 1 0

@@ -24,6 +24,12 @@ private[cli] object FilmInput:
     * @param now options of this command
     */
   def options(film: FilmFile, now: Options): Options =
+    if FilmHeaders.isMadeInCode(film.header) then
+      FilmKeeper.fail(
+        Code.NoSuchScene,
+        s"a program has made the scene of `${film.path}`, which is in no file",
+        "that program continues it: RenderControl.withFilm of the library"
+      )
     val scene = resolve(film, film.header.scene)
     val file = OutputFiles.path(scene)
     if now.control.limits.sandbox then
