@@ -18,6 +18,11 @@ object Refusal:
   def apply(code: Code, at: Option[SourcePos], message: String, help: String): Refusal =
     new Refusal(Problem.error(code, at, message, Some(help)))
 
+  /** That of a file outside of a sandbox: unlike a limit, it leaves the rest to be looked at. */
+  object OfFile:
+    def unapply(r: Refusal): Option[Problem] =
+      Option.when(r.problem.code == Code.Sandboxed)(r.problem)
+
   /** Runs `body`; a refusal in it that has no place is here. */
   def placed[A](at: => SourcePos)(body: => A): A =
     try body

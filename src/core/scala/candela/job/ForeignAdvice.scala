@@ -13,11 +13,11 @@ private[job] object ForeignAdvice:
   import ForeignKind.*
 
   /** The problem if a file of another kind was given as a scene. */
-  def problem(file: Path): Option[Problem] =
+  def problem(file: Path, isConfined: Boolean): Option[Problem] =
     // A pipe can be read only once
     if !Files.isRegularFile(file) then None
     else
-      MissingFormats.problem(file, SceneFormat.all).orElse:
+      MissingFormats.problem(file, SceneFormat.all, isConfined).orElse:
         Source.read(InputFile.named(file)).toOption.flatMap(problem(file, _))
 
   private def problem(file: Path, source: Source): Option[Problem] =

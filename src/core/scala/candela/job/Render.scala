@@ -36,7 +36,10 @@ object Render:
     try
       withinLimits():
         SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
-    catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
+    catch
+      case e: SceneError =>
+        val isConfined = control.limits.sandbox
+        throw ForeignAdvice.problem(file, isConfined).fold(e)(SceneError(_))
 
   /** Parses a text.
     *

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.diagnostics.{Allowance, Code, Problem, SceneError, SourcePos, Suggest}
+import candela.diagnostics.{Allowance, Code, Problem, Refusal, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, SceneFolder}
 import candela.math.{Interpolation, Transform, Vec3}
 import candela.scenefile.{
@@ -207,6 +207,9 @@ final class Session(
     catch
       case e: SceneError =>
         e.problems.foreach(report)
+        None
+      case Refusal.OfFile(problem) =>
+        report(problem)
         None
 
 object Session:

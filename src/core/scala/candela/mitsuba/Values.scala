@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.base.Decimal
-import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
+import candela.diagnostics.{Code, Problem, Refusal, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, IoReason, SceneFolder}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
@@ -42,6 +42,9 @@ final class Values(
     catch
       case e: SceneError =>
         e.problems.foreach(report)
+        None
+      case Refusal.OfFile(problem) =>
+        report(problem)
         None
 
   private def property(e: Element): Option[Property] =

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.diagnostics.{Code, Limit, Problem, SceneError, Severity, SourcePos, Suggest}
+import candela.diagnostics.{Code, Limit, Problem, Refusal, SceneError, Severity, SourcePos, Suggest}
 import candela.io.{InputFile, SceneFolder}
 import java.nio.file.Path
 
@@ -152,6 +152,9 @@ private[scenefile] final class ParserRun(
         e.problems.foreach(doubts.add)
         // A misspelt directive is told, too, but a misspelt argument not again as a directive
         if !in.startsName || !in.startsLine then skipToDirective(in)
+      case Refusal.OfFile(problem) =>
+        problems.add(problem)
+        skipToDirective(in)
 
   private def skipToDirective(in: Tokenizer): Unit =
     val isThere = in.current == Token.Word && Directives.all.contains(in.text)
@@ -207,7 +210,7 @@ private[scenefile] final class ParserRun(
   private inline def losing(directive: String)(inline body: Unit): Unit =
     try body
     catch
-      case e: SceneError =>
+      case e: (SceneError | Refusal) =>
         failedKinds ++= NameKind.definedBy(directive)
         throw e
 

@@ -32,6 +32,36 @@ class SandboxSuite extends AnyFunSuite:
       assert(said("/etc/passwd") == said("/etc/passwt"))
       assert(said("up/secret.pbrt") == said("up/secrets.pbrt"))
 
+  test("a file outside hides no other error"):
+    inFolder: f =>
+      def errors(name: String, text: String, words: String*) =
+        val all = Vector("check", "--sandbox", f.scene(name, text).toString) ++ words
+        val (code, captured) = Captured.run(all*)
+        assert(code == 1, captured.err)
+        captured.err.linesIterator.filter(_.contains(": error")).toVector
+      val pbrt =
+        """WorldBegin
+          |Texture "a" "spectrum" "imagemap" "string filename" "../a.png"
+          |Texture "b" "spectrum" "imagemap" "string filename" "../b.png"
+          |Material "diffuse" "texture reflectance" "a"
+          |Shape "spere"
+          |Shape "plymesh" "string filename" "../a.ply"
+          |""".stripMargin
+      for keeps <- Vector(Vector.empty, Vector("--keep-going")) do
+        val told = errors("s.pbrt", pbrt, keeps*)
+        for line <- Vector(2, 3, 6) ++ Option.when(keeps.isEmpty)(5) do
+          assert(told.exists(_.contains(s"s.pbrt:$line:")), told)
+      val included = errors("s.pbrt", s"WorldBegin\nInclude \"../a.pbrt\"\nShape \"spere\"\n")
+      assert(included.exists(_.contains(":2:")) && included.exists(_.contains(":3:")), included)
+      val xml =
+        """<scene version="3.0.0">
+          |<shape type="obj"><string name="filename" value="../a.obj"/></shape>
+          |<shape type="serialized"><string name="filename" value="../a.serialized"/></shape>
+          |<shape type="spere"/>
+          |</scene>""".stripMargin
+      val told = errors("s.xml", xml)
+      for line <- 2 to 4 do assert(told.exists(_.contains(s"s.xml:$line:")), told)
+
   test("files within the folder are read by any name: absolute, through `..`, through links"):
     inFolder: f =>
       val _ = Files.writeString(f.home.resolve("part.pbrt"), "Shape \"sphere\"\n")

@@ -1,6 +1,6 @@
 package candela.build.recipe
 
-import candela.diagnostics.{Code, Suggest}
+import candela.diagnostics.{Code, Refusal, Suggest}
 import scala.collection.mutable
 import scala.jdk.CollectionConverters.*
 
@@ -164,7 +164,16 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
       case Some(recipe) =>
         for instead <- recipe.substitute do
           site.warn(Code.OtherDialect, s"$category \"$name\" is substituted: $instead")
-        Some(recipe.build(inDialectOf(recipe, site)))
+        try Some(recipe.build(inDialectOf(recipe, site)))
+        catch
+          case Refusal.OfFile(problem) =>
+            site.problems.error(
+              problem.code,
+              problem.pos.getOrElse(site.declaration.pos),
+              problem.message,
+              problem.help
+            )
+            None
       case None =>
         val message = s"unknown $category \"$name\""
         val help = OtherNames.ofMitsubas(name).filter(_ => byName.contains(name))

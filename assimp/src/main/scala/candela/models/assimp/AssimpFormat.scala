@@ -30,13 +30,7 @@ final class AssimpFormat extends NodeFormat("Assimp", MissingFormats.OfAssimp):
       reading: ReadSettings,
       text: Option[String]
   )(describe: (GltfFile, Session) => SceneDescription): SceneDescription =
-    if within.isConfined then
-      throw Refusal(
-        Code.Sandboxed,
-        None,
-        s"`$file` is read by Assimp, which no sandbox confines",
-        "convert it to glTF, which --sandbox reads; or, if you trust the file, omit --sandbox"
-      )
+    if within.isConfined then throw new Refusal(MissingFormats.unconfined(file))
     val suffix = FileName.suffix(file)
     val defaultAxis = if UpwardZ(suffix) then UpAxis.Z else UpAxis.Y
     val native = imported(file, suffix, within, text)
