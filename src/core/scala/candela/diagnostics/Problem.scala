@@ -72,9 +72,15 @@ object Problem:
   private def line(text: String): String =
     val visible = Visible.line(text)
     if visible.length <= Longest then visible
-    else s"${visible.take(Longest - 100)} … ${visible.takeRight(90)}"
+    else
+      val (head, tail) = (visible.take(Longest - 100), visible.takeRight(90))
+      // Between words, unless they are long
+      val (end, begin) = (head.lastIndexOf(' '), tail.indexOf(' '))
+      val first = if head.length - end <= LongestWord then head.take(end) else head
+      s"$first … ${if begin < LongestWord then tail.drop(begin + 1) else tail}"
 
   private inline val Longest = 500
+  private inline val LongestWord = 40
 
   /** Problem about an item that the scene names but that doesn't exist.
     *

@@ -28,6 +28,12 @@ class ProblemSuite extends AnyFunSuite:
     assert(p.message.length <= 500)
     assert(p.message.startsWith("first") && p.message.endsWith("last"))
 
+  test("a long list is cut between its words"):
+    val names = (100 to 300).map(i => s"parameter$i")
+    val p = Problem.error(Code.Undefined, at, names.mkString("known: ", ", ", ""))
+    val shown = p.message.stripPrefix("known: ").split("[ ,…]+").toVector
+    assert(shown.size > 20 && shown.forall(names.contains), p.message)
+
   test("a message of ordinary length is as it was written"):
     val text = "`roughnes` is not a parameter of \"plastic\"; it is ignored — " + "y" * 300
     assert(Problem.error(Code.Undefined, at, text).message == text)

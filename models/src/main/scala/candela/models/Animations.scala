@@ -31,7 +31,7 @@ private[models] final class Animations(file: GltfFile, session: Session):
   def pose(state: ModelState, image: Int): Pose = state.times match
     case None =>
       for name <- state.animation do
-        refuse(s"the animation `$name` is of no time", Some("--at TIME is within an animation"))
+        refuse(s"no time of the animation `$name` is given", Some("--at TIME is within it"))
       for first <- entries.headOption do
         val message = s"the model is shown at rest; --at TIME shows it within $listed"
         session.warn(first.at, message, Code.SeveralWorlds)
