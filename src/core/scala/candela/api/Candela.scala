@@ -23,12 +23,15 @@ object Candela:
 
   /** Reads a scene: `.pbrt` of any version, `.xml` of Mitsuba, or either compressed as `.gz`.
     *
-    * Throws nothing: [[Scene.problems]] lists all errors and warnings.
+    * Errors are not thrown: [[Scene.problems]] lists all errors and warnings.
+    *
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
     */
   def read(file: Path): Scene = read(file, ReadSettings())
 
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
+    Objects.requireNonNull(file, "file")
     Scenes.read(file.toString, how): how =>
       Render.read(SceneName.existing(Problems.onDisk(file).toString), how.core, how.control)
 

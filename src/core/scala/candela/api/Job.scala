@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.diagnostics.SceneError
+import candela.diagnostics.Code
 import candela.image.{Image, Oidn}
 import candela.job.{
   Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, GoalRule, ImageFile, Prepared,
@@ -12,9 +12,8 @@ import candela.render.{
 }
 
 import java.nio.file.Path
-import java.util.concurrent.CancellationException
 import java.util.function.Consumer
-import java.util.{LinkedHashMap, List as JList, Map as JMap}
+import java.util.{LinkedHashMap, List as JList, Map as JMap, Objects}
 
 import scala.collection.mutable.ArrayBuffer
 
@@ -65,10 +64,12 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     * @throws SceneException if the film file belongs to another rendering, or can't be read; or
     *                        if the scene's time limit is reached
     * @throws RenderException if a sample fails
-    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted; it
+    *                                                    remains so
     * @throws java.lang.IllegalStateException if the job is closed
     */
   def render(control: RenderControl): RenderResult =
+    Objects.requireNonNull(control, "control")
     if isClosed then throw IllegalStateException("the job was closed")
     val problems = ArrayBuffer.empty[candela.diagnostics.Problem]
     Problems.thrown:
@@ -98,10 +99,11 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       control: RenderControl,
       problems: ArrayBuffer[candela.diagnostics.Problem]
   ): FilmKeeper =
-    val path = Problems.onDisk(file).toAbsolutePath
+    val path =
+      Problems.onDisk(file, Code.Unwritable, "name a file of the default one").toAbsolutePath
     val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
     val filmOptions =
-      FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _, savesError = true)
+      FilmKeeper.How(control.every, problems += _, savesError = true)
     FilmKeeper.of(path, header, filmOptions)(FilmKeeper.locked(path))
 
   private def rendered(
@@ -130,17 +132,19 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       catch
         case e: RenderFailure =>
           throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
-        case e: SceneError => throw SceneException(e.problems)
-        case _: InterruptedException =>
-          Thread.currentThread.interrupt()
-          throw CancellationException("the rendering thread was interrupted")
+    // Of a film that had all samples, no others tell the error
+    def savedError =
+      for
+        _ <- recorder
+        error <- keeper.flatMap(_.savedError(rendering.samplesDone))
+      yield Math.sqrt(error.estimate)
     val denoising =
       Option.when(settings.core.output.denoise)(Denoising(Oidn.load(), control.threads))
     val developed = Render.develop(prepared, rendering, denoising)
     RenderResult(
       rendering,
       image(rendering, developed, denoising.map(_.describe)),
-      recorder.flatMap(_.errorAt(rendering.samplesDone)),
+      recorder.flatMap(_.errorAt(rendering.samplesDone)).orElse(savedError),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
       problems.toVector ++ EmptyImage.problem(prepared, rendering, developed)
     )

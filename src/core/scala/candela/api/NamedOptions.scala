@@ -7,10 +7,15 @@ import candela.settings.{RenderSettings as CoreSettings, SettingsTable}
 private[api] object NamedOptions:
   private val default = CoreSettings()
 
+  /** Settings without effect here, and what to do instead. */
+  private val ofProgram =
+    val curve = "a RenderListener's `passed` has the image at 1, 2, 4, 8, … samples per pixel"
+    Map("mse-reference-image" -> curve, "mse-reference-out" -> curve)
+
   /** What an option changes.
     *
     * @param isRead whether it must be, or must not be, of how scenes are read
-    * @throws SceneException if there is none, or it has no such value
+    * @throws SceneException if there is none, it has no such value, or is the program's alone
     */
   def change(name: String, value: Option[String], isRead: Boolean): CoreSettings => CoreSettings =
     val setting = SettingsTable.named(name).getOrElse:
@@ -20,6 +25,9 @@ private[api] object NamedOptions:
       val actual = if value.isDefined then "found one" else "found none"
       val wanted = if setting.takesValue then "a value" else "no value"
       Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
+    for help <- ofProgram.get(name) do
+      val message = s"setting `$name` is of the program, and does nothing in the library"
+      Problems.fail(Code.OptionMisfit, message, Some(help))
     val text = value.getOrElse("")
     val changed = setting.change(text).getOrElse:
       Problems.fail(

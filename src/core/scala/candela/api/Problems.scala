@@ -4,6 +4,7 @@ import candela.diagnostics.{Code, SceneError}
 import candela.image.{ImageError, MissingNatives}
 
 import java.nio.file.{FileSystems, Path}
+import java.util.concurrent.CancellationException
 
 import scala.jdk.CollectionConverters.*
 
@@ -25,21 +26,49 @@ private[api] object Problems:
 
   /** Runs `body` and turns its errors into a [[SceneException]]. */
   def thrown[A](body: => A): A =
-    try body
+    try uninterrupted(body)
     catch
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
 
+  /** Runs `body`, unless its thread is interrupted, which remains so.
+    *
+    * @throws CancellationException if it is, also where `body` takes that for an unreadable file
+    */
+  def uninterrupted[A](body: => A): A =
+    def isInterrupted = Thread.currentThread.isInterrupted
+    def cancelled = CancellationException("the calling thread was interrupted")
+    try
+      if isInterrupted then throw cancelled
+      body
+    catch
+      case _: InterruptedException =>
+        Thread.currentThread.interrupt()
+        throw cancelled
+      case _: SceneError | _: ImageError if isInterrupted => throw cancelled
+
+  /** What an interrupted thread has read may lack files that it could not.
+    *
+    * @throws InterruptedException if the thread is interrupted
+    */
+  def checkInterrupt(): Unit =
+    if Thread.currentThread.isInterrupted then throw InterruptedException()
+
   /** The path; of another file system, such as a zip's, its name would be another file's.
     *
+    * @param code if it is of another one
+    * @param help likewise, what to do instead
     * @throws SceneError if it is of another one
     */
-  def onDisk(path: Path): Path =
+  def onDisk(
+      path: Path,
+      code: Code = Code.Unreadable,
+      help: String = "copy it to a file, or read its text: Candela.parse"
+  ): Path =
     if path.getFileSystem != FileSystems.getDefault then
-      val help = Some("copy it to a file, or read its text: Candela.parse")
       val message = s"`$path` is no file of the default file system"
-      throw SceneError(candela.diagnostics.Problem.general(Code.Unreadable, message, help))
+      throw SceneError(candela.diagnostics.Problem.general(code, message, Some(help)))
     path
 
   def fail(code: Code, message: String, help: Option[String] = None): Nothing =

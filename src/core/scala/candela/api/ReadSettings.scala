@@ -49,7 +49,8 @@ final class ReadSettings private (
     * call that reads it. A sandbox alone limits no time.
     */
   def withTimeLimit(time: Duration): ReadSettings =
-    limited(Limit.Time, Some(Math.max(1, time.toMillis)))
+    val seconds = Times.positive("the time limit", time)
+    limited(Limit.Time, Some(Math.max(1, (seconds * 1000).toLong)))
 
   /** Sets a limit as `--limit` does: `withLimit("pixels", "20M")`; `none` lifts one. The names are
     * `files`, `bytes`, `triangles`, `pixels`, `depth`, `samples` and `time` ([[withTimeLimit]]).

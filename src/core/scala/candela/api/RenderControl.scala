@@ -3,6 +3,7 @@ package candela.api
 import candela.diagnostics.Code
 import java.nio.file.Path
 import java.time.Duration
+import java.util.Objects
 
 /** Controls a rendering without changing its image. Immutable: each method returns a new value. */
 final class RenderControl private (
@@ -11,7 +12,7 @@ final class RenderControl private (
     private[api] val cancellation: Cancellation,
     private[api] val estimates: Boolean,
     private[api] val film: Option[Path],
-    private[api] val every: Option[Duration]
+    private[api] val every: Option[Double]
 ):
   private def copy(
       threads: Int = threads,
@@ -19,7 +20,7 @@ final class RenderControl private (
       cancellation: Cancellation = cancellation,
       estimates: Boolean = estimates,
       film: Option[Path] = film,
-      every: Option[Duration] = every
+      every: Option[Double] = every
   ): RenderControl = new RenderControl(threads, listener, cancellation, estimates, film, every)
 
   /** @param count at least 1 (default: one per processor) */
@@ -27,10 +28,11 @@ final class RenderControl private (
     if count < 1 then Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $count")
     copy(threads = count)
 
-  def withListener(listener: RenderListener): RenderControl = copy(listener = listener)
+  def withListener(listener: RenderListener): RenderControl =
+    copy(listener = Objects.requireNonNull(listener, "listener"))
 
   def withCancellation(cancellation: Cancellation): RenderControl =
-    copy(cancellation = cancellation)
+    copy(cancellation = Objects.requireNonNull(cancellation, "cancellation"))
 
   /** Estimates the error during rendering, which costs a few percent of the time. */
   def withErrorEstimates: RenderControl = copy(estimates = true)
@@ -39,10 +41,12 @@ final class RenderControl private (
     * existing film of this rendering is continued; the image is bit-identical to that of an
     * uninterrupted rendering.
     */
-  def withFilm(file: Path): RenderControl = copy(film = Some(file))
+  def withFilm(file: Path): RenderControl =
+    copy(film = Some(Objects.requireNonNull(file, "file")))
 
   /** Sets how often the film file is written; it is also written at the end. */
-  def withFilmInterval(time: Duration): RenderControl = copy(every = Some(time))
+  def withFilmInterval(time: Duration): RenderControl =
+    copy(every = Some(Times.positive("the interval", time)))
 
   /** As `RenderControl(4 threads, image.film)`. */
   override def toString: String =

@@ -1,5 +1,6 @@
 package candela.api
 
+import candela.diagnostics.Code
 import candela.film.Film
 import candela.render.{Live, Looks, Pass as CorePass, Progress as CoreProgress}
 
@@ -82,6 +83,15 @@ final class LiveRendering private[api] (live: Live, develop: () => RenderedImage
 
 private[api] object Times:
   def of(seconds: Double): Duration = Duration.ofNanos(Math.round(seconds * 1e9))
+
+  /** In seconds.
+    *
+    * @throws SceneException unless it is above 0
+    */
+  def positive(what: String, time: Duration): Double =
+    if time.isNegative || time.isZero then
+      Problems.fail(Code.OptionValue, s"$what must be above 0, found $time")
+    time.getSeconds + time.getNano * 1e-9
 
 /** Forwards the core's events to a listener. */
 private[api] final class Followed(

@@ -26,7 +26,7 @@ final class RenderSettings private (private[api] val core: CoreSettings):
 
   /** Goal: ends the rendering after a time, with equally many samples in every pixel. */
   def withTime(time: Duration): RenderSettings =
-    end(_.copy(time = Some(positive("the time", time.toNanos * 1e-9))))
+    end(_.copy(time = Some(Times.positive("the time", time))))
 
   /** Goal: ends the rendering when its estimated error is low enough.
     *

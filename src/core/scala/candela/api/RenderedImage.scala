@@ -73,7 +73,9 @@ final class RenderedImage private[api] (
     *
     * @throws SceneException if it can't be written
     */
-  def save(file: Path): Unit = Problems.thrown(encode(Problems.onDisk(file)).save())
+  def save(file: Path): Unit = Problems.thrown:
+    val help = "save a file, and copy it there; or write what `bytes` returns"
+    encode(Problems.onDisk(file, Code.Unwritable, help)).save()
 
   /** The bytes that [[save]] writes in a format: `exr`, `png` or another suffix of a file.
     *

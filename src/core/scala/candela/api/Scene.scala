@@ -6,7 +6,7 @@ import candela.job.{Prepared, Render}
 import candela.scenefile.{MaterialRef, SceneDescription}
 
 import java.nio.file.Path
-import java.util.List as JList
+import java.util.{List as JList, Objects}
 
 import scala.jdk.CollectionConverters.*
 
@@ -24,6 +24,9 @@ final class Scene private[api] (
 
   /** Errors and warnings: of a file or a text, those of reading it, and [[check]] returns all; of a
     * scene built or edited in code, all.
+    *
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted, and
+    *                                                    the scene was built or edited
     */
   def problems: JList[Problem] = Problems.ofCore(coreProblems)
 
@@ -57,6 +60,7 @@ final class Scene private[api] (
   /** Builds the scene with one thread per processor.
     *
     * @throws SceneException if it has errors
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
     */
   def prepare(settings: RenderSettings): Job =
     prepare(settings, Runtime.getRuntime.availableProcessors)
@@ -65,13 +69,18 @@ final class Scene private[api] (
     *
     * @param threads at least 1
     * @throws SceneException if it has errors
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted; it
+    *                                                    remains so
     */
   def prepare(settings: RenderSettings, threads: Int): Job =
     if threads < 1 then
       Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $threads")
     Job(this, settings, Problems.thrown(prepared(settings, threads, isRendered = true)))
 
-  /** All errors and warnings, also of the scene's files; builds the scene and discards it. */
+  /** All errors and warnings, also of the scene's files; builds the scene and discards it.
+    *
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
+    */
   def check(settings: RenderSettings): JList[Problem] = Problems.ofCore(checked(settings))
 
   private def checked(settings: RenderSettings): Vector[candela.diagnostics.Problem] =
@@ -96,18 +105,29 @@ final class Scene private[api] (
 
   private def prepared(settings: RenderSettings, threads: Int, isRendered: Boolean): Prepared =
     val parsed = description.getOrElse(throw SceneError(readProblems))
-    val coreSettings = settings.core.copy(reading = reading.core)
+    val coreSettings =
+      Objects.requireNonNull(settings, "settings").core.copy(reading = reading.core)
     val control = reading.control.copy(threads = threads, isRendered = isRendered)
     // Lest an image be lost after all the time that it takes
     if coreSettings.output.denoise then Oidn.load(): Unit
-    Render.build(parsed, coreSettings, control)
+    val ready = Render.build(parsed, coreSettings, control)
+    try Problems.checkInterrupt()
+    catch
+      case e: InterruptedException =>
+        ready.close()
+        throw e
+    ready
 
 private[api] object Scenes:
 
   /** What `body` reads by the settings, whose time begins. */
   def read(name: String, settings: ReadSettings)(body: ReadSettings => SceneDescription): Scene =
-    val reading = settings.started
-    try of(name, body(reading), reading)
+    val reading = Objects.requireNonNull(settings, "settings").started
+    def description = Problems.uninterrupted:
+      val read = body(reading)
+      Problems.checkInterrupt()
+      read
+    try of(name, description, reading)
     catch case e: SceneError => Scene(name, None, e.problems, reading)
 
   def of(name: String, description: SceneDescription, reading: ReadSettings): Scene =

@@ -3,6 +3,7 @@ package candela.settings
 import candela.diagnostics.{Allowance, Limit}
 import candela.io.SceneFolder
 import java.nio.file.Path
+import java.util.concurrent.TimeUnit
 
 /** Limits of scenes.
   *
@@ -24,7 +25,11 @@ final case class SceneLimits(
 
   /** These, whose time begins now. */
   def started: SceneLimits =
-    copy(endsAt = effective.get(Limit.Time).map(System.nanoTime + _ * 1_000_000))
+    copy(endsAt = effective.get(Limit.Time).map(System.nanoTime + nanos(_)))
+
+  /** Of a time in milliseconds, at most a century. */
+  private def nanos(millis: Long): Long =
+    TimeUnit.MILLISECONDS.toNanos(Math.min(millis, TimeUnit.DAYS.toMillis(36_525)))
 
   /** The folder of a scene, through which it reads its files. */
   def folder(scene: Path): SceneFolder =

@@ -206,6 +206,20 @@ class LibrarySuite extends AnyFunSuite:
     assert(result.error.getAsDouble > 0 && told > off / 2 && told < off * 8, s"$told, $off")
     assert(rendered(scene).error.isEmpty && rendered(scene).errors.isEmpty)
 
+  test("a film that is complete tells the error that it had"):
+    TempFolder.use: folder =>
+      val scene = LibraryScenes.built(samples = 64).scene()
+      val settings = Vector(RenderSettings(), RenderSettings().withError(0.5))
+      for (goal, i) <- settings.zipWithIndex do
+        val control =
+          RenderControl().withThreads(2).withErrorEstimates.withFilm(folder.resolve(s"$i.film"))
+        val first = rendered(scene, goal, control)
+        val again = rendered(scene, goal, control)
+        assert(again.earlierSamplesPerPixel == first.samplesPerPixel && again.isComplete)
+        assert(first.error.isPresent && again.error.isPresent, i)
+        assert(Math.abs(first.error.getAsDouble - again.error.getAsDouble) < 1e-9)
+        assert(first.errors.isPresent && again.errors.isEmpty)
+
   test("a goal ends a rendering, with whole passes"):
     val scene = LibraryScenes.built().scene()
     val result = rendered(scene, RenderSettings().withError(0.2))

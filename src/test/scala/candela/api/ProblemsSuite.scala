@@ -1,0 +1,121 @@
+package candela.api
+
+import candela.cli.Captured
+import candela.testing.TempFolder
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.nio.file.{FileSystems, Files, Path}
+import java.time.Duration
+import java.util.concurrent.CancellationException
+
+import scala.util.Using
+
+class ProblemsSuite extends AnyFunSuite:
+  private def refused(body: => Any): Problem = intercept[SceneException](body).problems.get(0)
+
+  /** Whether `body` throws that its thread was interrupted, which it then still is. */
+  private def isCancelled(body: => Any): Boolean =
+    Thread.currentThread.interrupt()
+    val isThrown =
+      try
+        val _ = body
+        false
+      catch case _: CancellationException => true
+    isThrown & Thread.interrupted()
+
+  test("an interrupted thread cancels whatever it calls, and stays interrupted"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.pbrt"), LibraryScenes.text())
+      val builder = LibraryScenes.built()
+      val scene = builder.scene()
+      assert(isCancelled(Candela.read(file)), "read")
+      assert(isCancelled(Candela.parse(LibraryScenes.text())), "parse")
+      assert(isCancelled(scene.problems), "problems")
+      assert(isCancelled(scene.check(RenderSettings())), "check")
+      assert(isCancelled(scene.prepare(RenderSettings())), "prepare")
+      Using.resource(scene.prepare(RenderSettings(samples = 1), 2)): job =>
+        assert(isCancelled(job.render(2)), "render")
+        val image = job.render(2).image
+        val saved = folder.resolve("a.exr")
+        assert(isCancelled(image.save(saved)) && !Files.exists(saved), "save")
+        assert(isCancelled(image.bytes("pfm")), "bytes")
+      // What was cancelled works later
+      assert(scene.problems.isEmpty && !Candela.read(file).hasErrors)
+
+  test("an interrupt while a scene is prepared cancels it"):
+    @volatile var thrown = Option.empty[Throwable]
+    @volatile var isInterrupted = false
+    val spheres = (1 to 20_000).map(i => s"Shape \"sphere\" \"float radius\" $i\n").mkString
+    val scene = Candela.parse(LibraryScenes.text() + spheres)
+    val thread = Thread: () =>
+      try while true do scene.check(RenderSettings()): Unit
+      catch
+        case e: Throwable =>
+          thrown = Some(e)
+          isInterrupted = Thread.currentThread.isInterrupted
+    thread.start()
+    Thread.sleep(50)
+    thread.interrupt()
+    thread.join(60_000)
+    assert(thrown.exists(_.isInstanceOf[CancellationException]) && isInterrupted, thrown)
+
+  test("times that are none are refused, and long ones are taken"):
+    for time <- Vector(Duration.ZERO, Duration.ofSeconds(-1)) do
+      val told = Vector(
+        refused(RenderSettings().withTime(time)),
+        refused(ReadSettings().withTimeLimit(time)),
+        refused(RenderControl().withFilmInterval(time))
+      )
+      for p <- told do assert(p.number == "E0003" && p.message.contains("above 0"), p)
+    for long <- Vector(Duration.ofDays(400_000), Duration.ofSeconds(Long.MaxValue)) do
+      assert(RenderSettings().withTime(long).words.size == 2)
+      assert(!s"${RenderControl().withFilmInterval(long)}".isEmpty)
+      val how = ReadSettings().withTimeLimit(long)
+      val scene = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how)
+      assert(scene.check(RenderSettings()).isEmpty, scene.problems)
+
+  test("options of the program alone are refused, as they would do nothing"):
+    for name <- Vector("mse-reference-image", "mse-reference-out") do
+      val problem = refused(RenderSettings().withOption(name, "a.exr"))
+      assert(problem.number == "E0008" && problem.help.get.contains("RenderListener"), problem)
+
+  test("a film of a scene made in code says who continues it"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.pbrt"), LibraryScenes.text())
+      val scenes = Vector(LibraryScenes.built(), Candela.read(file).edit().translate(0, 0, 0))
+      for (builder, i) <- scenes.zipWithIndex do
+        val film = folder.resolve(s"$i.film")
+        val control = RenderControl().withThreads(2).withFilm(film)
+        Using.resource(builder.scene().prepare(RenderSettings(samples = 1), 2))(_.render(control))
+        val (code, captured) = Captured.run("resume", film.toString, "--spp", "2")
+        assert(code == 1 && captured.err.contains("a program has made the scene"), captured.err)
+        assert(captured.err.contains("withFilm"), captured.err)
+
+  test("a missing argument is named"):
+    def named(body: => Any) = intercept[NullPointerException](body).getMessage
+    val none = Parameters()
+    assert(named(LibraryScenes.built().shape(null, none)) == "a name or type of Shape")
+    assert(named(LibraryScenes.built().nameMaterial(null, "diffuse", none))
+      == "a name or type of MakeNamedMaterial")
+    assert(named(LibraryScenes.built().shape("sphere", null)) == "parameters")
+    assert(named(LibraryScenes.built().option(null)) == "parameters")
+    assert(named(Candela.read(null)) == "file")
+    assert(named(Candela.read(Path.of("a.pbrt"), null)) == "settings")
+    val scene = LibraryScenes.built().scene()
+    assert(named(scene.prepare(null)) == "settings" && named(scene.check(null)) == "settings")
+    assert(named(RenderControl().withFilm(null)) == "file")
+
+  test("a path of another file system says what to do instead"):
+    TempFolder.use: folder =>
+      val zip = java.net.URI.create(s"jar:${folder.resolve("a.zip").toUri}")
+      Using.resource(FileSystems.newFileSystem(zip, java.util.Map.of("create", "true"))): system =>
+        val path = system.getPath("a.exr")
+        val scene = LibraryScenes.built().scene()
+        assert(scene.check(RenderSettings()).isEmpty)
+        assert(Candela.read(path).problems.get(0).help.get.contains("Candela.parse"))
+        Using.resource(scene.prepare(RenderSettings(samples = 1), 2)): job =>
+          val saved = refused(job.render(2).image.save(path))
+          assert(saved.help.get.contains("`bytes`"), saved)
+          val film = refused(job.render(RenderControl().withThreads(2).withFilm(path)))
+          assert(film.number == saved.number && !film.help.get.contains("parse"), film)
