@@ -133,7 +133,7 @@ class Scene:
         """Red, green, blue and alpha, rows from below."""
         self.scene.render.engine = engine
         self.scene.candela.samples = self.scene.cycles.samples = samples
-        for name in ("max_bounces", "diffuse_bounces", "glossy_bounces"):
+        for name in ("max_bounces", "diffuse_bounces", "glossy_bounces", "volume_bounces"):
             setattr(self.scene.cycles, name, 16)
         self.scene.cycles.use_denoising = self.scene.cycles.use_adaptive_sampling = False
         self.scene.cycles.sample_clamp_indirect = 0
@@ -288,6 +288,138 @@ def graded(made):
     made.scene.view_settings.exposure = 2
 
 
+def openvdb():
+    part("volumes")._openvdb()
+    return sys.modules["openvdb"]
+
+
+def stored(grid, name="density"):
+    """A volume of a file of one grid. Blender keeps what it has read, by the file's name."""
+    grid.name = name
+    file = os.path.join(_HOME.name, f"{len(os.listdir(_HOME.name))}.vdb")
+    openvdb().write(file, grids=[grid])
+    data = bpy.data.volumes.new("Cloud")
+    data.filepath = file
+    return data
+
+
+def cloud(name="density"):
+    """A lumpy grid in a file, away from its origin, its rows of different lengths."""
+    vdb = openvdb()
+    z, y, x = np.meshgrid(*(np.linspace(0, 1, n) for n in (21, 17, 33)), indexing="ij")
+    lumps = np.sin(7 * x) * np.cos(9 * y) * np.sin(5 * z) + 0.4 * x - 0.2 * z
+    grid = vdb.FloatGrid()
+    grid.copyFromArray(np.maximum(0, 3 * lumps).astype(np.float32).transpose(2, 1, 0), (-9, 5, -30))
+    grid.transform = vdb.createLinearTransform(voxelSize=0.06)
+    return stored(grid, name)
+
+
+def tiled():
+    """Slabs of equal voxels, in several nodes, in a turned grid."""
+    vdb = openvdb()
+    grid = vdb.FloatGrid()
+    grid.fill((-150, -20, -140), (150, 60, 40), 0.8)
+    grid.fill((-90, 4100, -200), (100, 4300, -64), 1.7)
+    rows = [[0.006, 0.003, 0, 0], [-0.0002, 0.0004, 0, 0], [0, 0, 0.006, 0], [0.1, 0.1, -0.3, 1]]
+    grid.transform = vdb.createLinearTransform(rows)
+    return stored(grid)
+
+
+def filled(data, kind, **inputs):
+    """Gives the data a material of one node."""
+    made = bpy.data.materials.new("Matter")
+    if made.node_tree is None:
+        made.use_nodes = True
+    tree = made.node_tree
+    node = tree.nodes.new(f"ShaderNode{kind}")
+    for name, value in inputs.items():
+        node.inputs[name.replace("_", " ")].default_value = value
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    tree.links.new(node.outputs[0], output.inputs["Volume"])
+    tree.links.remove(output.inputs["Surface"].links[0])
+    data.materials.clear()
+    data.materials.append(made)
+    return node, tree
+
+
+def clouded(make=cloud, **inputs):
+    made = lit(world=1)
+    data = make()
+    filled(data, "VolumePrincipled", **inputs)
+    made.cloud = made.put("Cloud", data, (-0.2, -1.2, 2.4))
+    made.cloud.rotation_euler = (0.3, 0.5, 1)
+    return made
+
+
+def scaled(made):
+    made.cloud.scale = (1.5, 0.7, 1.2)
+
+
+def of_world(made):
+    scaled(made)
+    made.cloud.data.render.space = "WORLD"
+
+
+def within(made):
+    made.cloud.scale = (8, 8, 8)
+    made.cloud.location = (0, -8, 10)
+
+
+def several(made):
+    """The cloud of a collection, twice."""
+    collection = bpy.data.collections.new("Clouds")
+    made.scene.collection.objects.unlink(made.cloud)
+    collection.objects.link(made.cloud)
+    made.cloud.location = (0, 0, 0)
+    for k in range(2):
+        holder = made.put(f"Holder {k}", None, (3.4 * k - 1.2, -1, 2 - k / 2))
+        holder.instance_type, holder.instance_collection = "COLLECTION", collection
+        holder.rotation_euler, holder.scale = (0, 0, 1 + k), (0.8, 0.8, 1 + 0.5 * k)
+
+
+def generated(made):
+    """A volume of geometry nodes, around a cube."""
+    bpy.ops.mesh.primitive_cube_add(size=1.2, location=(1.2, -1, 1.2))
+    tree = bpy.data.node_groups.new("Fill", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    fill = tree.nodes.new("GeometryNodeMeshToVolume")
+    fill.inputs["Density"].default_value = 2
+    tree.links.new(start.outputs[0], fill.inputs[0])
+    tree.links.new(fill.outputs[0], end.inputs[0])
+    bpy.context.object.modifiers.new("Fill", "NODES").node_group = tree
+
+
+def fog(**inputs):
+    """A cube of fog."""
+    made = lit(world=1)
+    bpy.ops.mesh.primitive_cube_add(size=1.6, location=(0.8, -1, 1.2), rotation=(0.2, 0.4, 1))
+    made.node, _ = filled(bpy.context.object.data, "VolumePrincipled", **inputs)
+    return made
+
+
+def added(made):
+    """Scattering and absorption, each by a part of the density."""
+    tree = filled(made.cloud.data, "VolumeScatter", Color=(0.2, 0.6, 0.9, 1), Density=2)[1]
+    scatter = next(n for n in tree.nodes if n.type == "VOLUME_SCATTER")
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    absorb, add, info, times = (
+        tree.nodes.new(f"ShaderNode{name}")
+        for name in ("VolumeAbsorption", "AddShader", "VolumeInfo", "Math")
+    )
+    scatter.inputs["Anisotropy"].default_value = 0.5
+    absorb.inputs["Color"].default_value = (0.9, 0.5, 0.3, 1)
+    times.operation = "MULTIPLY"
+    times.inputs[1].default_value = 1.5
+    tree.links.new(info.outputs["Density"], times.inputs[0])
+    for node in (scatter, absorb):
+        tree.links.new(times.outputs[0], node.inputs["Density"])
+    tree.links.new(scatter.outputs[0], add.inputs[0])
+    tree.links.new(absorb.outputs[0], add.inputs[1])
+    tree.links.new(add.outputs[0], output.inputs["Volume"])
+
+
 SCENES = {
     "world": lambda: Scene(0.6),
     "sensor fitted": lambda: lit(lens=35),
@@ -326,6 +458,22 @@ SCENES = {
     "emission": lambda: changed(Scene(), glowing),
     "exposure of the view": lambda: changed(lit(), graded),
     "border": lambda: changed(lit(), bordered),
+    "volume": lambda: clouded(Color=(0.9, 0.6, 0.3, 1), Density=3),
+    "volume without a material": lambda: changed(clouded(), lambda m: m.cloud.data.materials.clear()),
+    "volume that absorbs": lambda: clouded(
+        Color=(0.3, 0.5, 0.7, 1), Absorption_Color=(0.5, 0.2, 0.1, 1), Density=4, Anisotropy=0.6
+    ),
+    "volume of tiles": lambda: clouded(tiled, Density=4),
+    "volume, scaled": lambda: changed(clouded(Density=3), scaled),
+    "volume, scaled, of the world": lambda: changed(clouded(Density=3), of_world),
+    "volume around the camera": lambda: changed(clouded(Density=2), within),
+    "volume of two nodes": lambda: changed(clouded(), added),
+    "volumes of a collection": lambda: changed(clouded(Density=3), several),
+    "volume of geometry nodes": lambda: changed(lit(world=1), generated),
+    "fog in a mesh": lambda: fog(Color=(0.9, 0.6, 0.3, 1), Density=1.5, Anisotropy=-0.4),
+    "fog that emits": lambda: fog(
+        Color=(0.3, 0.3, 0.3, 1), Emission_Strength=0.5, Emission_Color=(1, 0.5, 0.1, 1)
+    ),
 }
 
 
@@ -510,8 +658,7 @@ class Exporting(unittest.TestCase):
         shader = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
         noise = tree.nodes.new("ShaderNodeTexNoise")
         tree.links.new(noise.outputs["Color"], shader.inputs["Base Color"])
-        volume = bpy.data.volumes.new("Smoke")
-        made.put("Smoke", volume, (0, 0, 0))
+        made.put("Smoke", bpy.data.volumes.new("Smoke"), (0, 0, 0))
         sky = made.nodes.new("ShaderNodeTexSky")
         made.scene.world.node_tree.links.new(sky.outputs[0], made.background.inputs["Color"])
         made.camera.dof.use_dof, made.camera.dof.aperture_blades = True, 5
@@ -520,6 +667,36 @@ class Exporting(unittest.TestCase):
             self.assertTrue(any(name in text for text in warnings), (name, warnings))
         _, none = lit().export()
         self.assertEqual(none, [])
+
+    def test_what_volumes_lose_is_named(self):
+        def warnings(make=cloud, grid=None, **inputs):
+            made = clouded(make, **inputs)
+            node = next(
+                n
+                for n in made.cloud.data.materials[0].node_tree.nodes
+                if n.type == "PRINCIPLED_VOLUME"
+            )
+            if grid is not None:
+                node.inputs["Density Attribute"].default_value = grid
+            return made.export()
+
+        model, none = warnings(Density=2)
+        self.assertEqual(none, [])
+        medium = next(n for n in model["nodes"] if "extras" in n and "medium" in n["extras"]["candela"])
+        self.assertEqual(medium["extras"]["candela"]["medium"]["grid"], "density")
+        for named, inputs in (
+            ("blackbody", {"Blackbody_Intensity": 1}),
+            ("emission", {"Emission_Strength": 1}),
+            ("no density by one of its grids, 'density'", {"grid": "smoke"}),
+            ("no density by one of its grids, 'smoke'", {"make": lambda: cloud("smoke")}),
+        ):
+            _, texts = warnings(**inputs)
+            self.assertTrue(any(named in text for text in texts), (named, texts))
+        made = fog()
+        noise = made.node.id_data.nodes.new("ShaderNodeTexNoise")
+        made.node.id_data.links.new(noise.outputs[0], made.node.inputs["Density"])
+        _, texts = made.export()
+        self.assertTrue(any("density of node" in text for text in texts), texts)
 
     def test_only_the_scenes_camera_is_exported(self):
         made = lit()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from . import lights, materials, world
+from . import lights, materials, media, volumes, world
 
 FILE = "scene.glb"
 
@@ -20,8 +20,8 @@ class ExportError(Exception):
 class _Export:
     """The export in progress: what the hooks below need."""
 
-    def __init__(self, scene, folder: Path, warn):
-        self.scene, self.folder, self.warn = scene, folder, warn
+    def __init__(self, scene, folder: Path, warn, volumes):
+        self.scene, self.folder, self.warn, self.volumes = scene, folder, warn, volumes
         self.has_camera = False
         # The exporter fails on temperatures and on power by area: it sees none
         self.lights = {light.name: lights.Power(light) for light in bpy.data.lights}
@@ -39,8 +39,7 @@ class glTF2ExportUserExtension:
             _run(_add_to_node, node, blender_object)
 
     def gather_material_hook(self, gltf_material, blender_material, export_settings):
-        if _current is not None:
-            gltf_material.double_sided = True  # Cycles culls no faces
+        _run(_add_to_material, gltf_material, blender_material)
 
     def gather_scene_hook(self, scene, blender_scene, export_settings):
         _run(_add_to_scene, scene, blender_scene)
@@ -65,7 +64,24 @@ def _add_to_node(node, blender_object):
         _light(node, blender_object)
 
 
+def _add_to_material(gltf_material, blender_material):
+    gltf_material.double_sided = True  # Cycles culls no faces
+    if blender_material is None:
+        return
+    medium = media.of(blender_material, (), _current.warn)
+    if medium is not None:
+        emission = {"emission": list(medium.emission)} if any(medium.emission) else {}
+        surface = {} if media.is_surface(blender_material) else {"surface": False}
+        _add(gltf_material, "medium", {**medium.fields(), **emission, **surface})
+
+
 def _add_to_scene(scene, blender_scene):
+    from io_scene_gltf2.io.com.gltf2_io import Node
+
+    for name, matrix, medium in _current.volumes:
+        node = Node(None, [], None, None, matrix, None, name, *[None] * 5)
+        _add(node, "medium", medium)
+        scene.nodes.append(node)
     found = world.environment(blender_scene.world, _current.folder, _current.warn)
     _add(scene, "environment", found)
 
@@ -151,7 +167,7 @@ def write(scene, view_layer, depsgraph, folder: Path, warn) -> Path:
         warn("pixels that are not square are not supported; the picture is stretched")
     materials.check(depsgraph, warn)
     path = folder / FILE
-    _current = _Export(scene, folder, warn)
+    _current = _Export(scene, folder, warn, volumes.nodes(depsgraph, folder, warn))
     try:
         place = {"scene": scene, "view_layer": view_layer}
         if bpy.context.window is None:

@@ -32,15 +32,14 @@ def check(depsgraph, warn):
 
 
 def _check_object(each, warn):
-    if each.type == "VOLUME":
-        why = "Blender has no converter to NanoVDB"
-        warn(f"volume '{each.name}' is not supported, because {why}; left out")
-    elif each.type not in _GEOMETRY | _INVISIBLE:
+    if each.type not in _GEOMETRY | _INVISIBLE | {"VOLUME"}:
         kind = each.type.lower().replace("_", " ")
         warn(f"object '{each.name}' ({kind}) is not supported; left out")
     if any(system.settings.type == "HAIR" for system in each.particle_systems):
         warn(f"the hair of object '{each.name}' is not supported; left out")
-    if each.type in _GEOMETRY and not all(getattr(each, name) for name in _SHADOWLESS):
+    if any(m.type == "FLUID" and m.fluid_type == "DOMAIN" for m in each.modifiers):
+        warn(f"the fluid of object '{each.name}' is not supported; left out")
+    if each.type not in _INVISIBLE and not all(getattr(each, name) for name in _SHADOWLESS):
         warn(f"the ray visibility of object '{each.name}' is ignored")
 
 
@@ -49,10 +48,8 @@ def _check_material(material, warn):
     output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
     if output is None:
         return
-    for name in ("Volume", "Displacement"):
-        if linked(output, name) is not None:
-            what = name.lower()
-            warn(f"the {what} of material '{material.name}' is not supported; left out")
+    if linked(output, "Displacement") is not None:
+        warn(f"the displacement of material '{material.name}' is not supported; left out")
     names = [node.name for node in upstream(linked(output, "Surface")) if node.type not in _NODES]
     if names:
         nodes = ", ".join(f"'{name}'" for name in sorted(names))

@@ -121,7 +121,7 @@ final class MediaBuilderSuite extends AnyFunSuite:
     val other = found(smoke(s"$file \"string gridname\" \"densty\"")).head
     assert(other.message == "can't read `scenes/volumes/smoke.nvdb`: it has no grid `densty`, " +
       "only `density`, `temperature`")
-    assert(other.help.contains("\"string gridname\" \"density\"") && other.pos.exists(_.line == 5))
+    assert(other.help.contains("did you mean `density`?") && other.pos.exists(_.line == 5))
     val cold = found(smoke(s"$file \"string temperaturename\" \"heat\""))
     assert(cold.exists(_.message.endsWith("has no grid `heat`; it does not emit")))
     val scene = found(smoke("\"string filename\" \"scenes/v4-fog.pbrt\""))

@@ -164,7 +164,7 @@ class ExtrasSuite extends AnyFunSuite:
     assert(scene.warnings.forall(_.code == Code.UnknownParameter))
     val misplaced = read(camera = extras(""""lens":{}"""), scene = extras(""""enviroment":{}"""))
     assert(warned(misplaced).toSet == Set(
-      "/nodes/1/extras/candela/lens: unknown member `lens`; known: camera, light",
+      "/nodes/1/extras/candela/lens: unknown member `lens`; known: camera, light, medium",
       "/scenes/0/extras/candela/enviroment: unknown member `enviroment`; did you mean " +
         "`environment`?"
     ))

@@ -48,7 +48,8 @@ private[models] final class Extras private (
       member.fail(s"expected lengths above 0, found ${all(lengths)}")
     lengths
 
-  def radiance(name: String): Rgb = entry(name).fold(Rgb.White): member =>
+  /** A colour, or a coefficient of each. */
+  def color(name: String, default: Rgb): Rgb = entry(name).fold(default): member =>
     val c = member.numbers(3)
     if c.exists(_ < 0) then
       val message = s"`$name` must be at least 0, found ${all(c)}; using 0"
@@ -64,10 +65,11 @@ private[models] final class Extras private (
 private[models] object Extras:
   private val Places = Map(
     "scenes" -> Vector("environment"),
-    "nodes" -> Vector("camera", "light")
+    "nodes" -> Vector("camera", "light", "medium"),
+    "materials" -> Vector("medium")
   )
 
-  /** A member of `extras.candela` of a scene or a node, whose members have these names. */
+  /** A member of `extras.candela` of a scene, node or material, whose members have these names. */
   def of(owner: Json, list: String, member: String, session: Session)(
       known: String*
   ): Option[Extras] =

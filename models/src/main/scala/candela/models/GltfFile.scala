@@ -96,6 +96,13 @@ private[models] final class GltfFile(
         session.missing(uri.at, message, "using nothing", help)
     located
 
+  /** The name of a file that is read where it is; it may be missing. */
+  def linked(uri: Json): String =
+    if uri.text.startsWith("data:") then uri.fail("expected the name of a file, found data")
+    val name = fileName(uri)
+    session.folder.locate(name, Some(uri.at)).foreach(file => session.note(file.path))
+    name
+
   private def fileName(uri: Json): String =
     val text = uri.text
     if GltfFile.Scheme.findPrefixOf(text).isDefined && !text.startsWith("data:") then

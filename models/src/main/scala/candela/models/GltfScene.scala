@@ -1,7 +1,7 @@
 package candela.models
 
 import candela.diagnostics.Code
-import candela.math.Transform
+import candela.math.{Transform, Vec3}
 import candela.scenefile.{
   Dialect, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, SceneDescription, ShapeDescription
@@ -48,7 +48,8 @@ private[models] object GltfScene:
 private final class GltfScene(file: GltfFile, session: Session, state: ModelState, image: Int):
   checkVersion()
   private val textures = Textures(file, session)
-  private val materials = Materials(file, session, textures)
+  private val media = Media(file, session)
+  private val materials = Materials(file, session, textures, media)
   private val primitives = Primitives(file, session)
   private val meshes = file.root.list("meshes")
   private val skins = file.root.list("skins")
@@ -83,6 +84,7 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       session.attempt(lights(p)).flatten.foreach:
         case light: LightDescription => lit += light
         case shape: ShapeDescription => shapes += shape
+      session.attempt(media(p)).flatten.foreach(shapes += _)
     environment.foreach(e => session.attempt(lights.surroundings(e)).flatten.foreach(lit += _))
     val scene = SceneDescription(
       Dialect.Gltf,
@@ -92,7 +94,7 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       shapes = shapes.result(),
       objects = objects.toMap,
       instances = instances.result(),
-      media = materials.interiors
+      media = media.result()
     )
     val cameras = nodes.placed.filter(_.node("camera").isDefined)
     if sensor.isEmpty && cameras.size > 1 then
@@ -106,7 +108,8 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       .flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c))).getOrElse(scene)
     val isOneOfSeveral = sensor.nonEmpty && cameras.size > 1
     val named = if isOneOfSeveral then View.numbered(framed, session, index) else framed
-    named.copy(isFollowed = index + 1 < cameras.size)
+    val eye = named.worldToCamera.start.inverse.point(Vec3.Zero)
+    named.copy(isFollowed = index + 1 < cameras.size, cameraMedium = media.around(eye))
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))

@@ -25,7 +25,7 @@ private[models] final class Lights(file: GltfFile, session: Session):
   /** The light of the surroundings, if there is any. */
   def surroundings(environment: Extras): Option[LightDescription] =
     val at = environment.entry.at
-    val radiance = environment.radiance("radiance")
+    val radiance = environment.color("radiance", Rgb.White)
     val rotation = environment("rotation").fold(Vector(0.0, 0.0, 0.0, 1.0))(_.numbers(4))
     val image = environment("uri").map(_ => file.imageName(environment.entry))
     val params =
@@ -153,7 +153,7 @@ private[models] final class Lights(file: GltfFile, session: Session):
     val toWorld =
       if name == "rectangle" then p.toWorld
       else p.toWorld * Lights.Turned * Transform.scale(1, height / width, 1).get
-    emitter(shape, toWorld, extras.radiance("radiance"), params, extras)
+    emitter(shape, toWorld, extras.color("radiance", Rgb.White), params, extras)
 
   private def emitter(
       shape: Declaration,

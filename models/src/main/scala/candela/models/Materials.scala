@@ -2,7 +2,7 @@ package candela.models
 
 import candela.base.NumberedNames
 import candela.color.Rgb
-import candela.scenefile.{Declaration, GraphicsState, MaterialRef, MediumDescription, Param}
+import candela.scenefile.{Declaration, MaterialRef, Param}
 
 import scala.collection.mutable
 
@@ -22,16 +22,19 @@ private[models] final case class Surface(
   *
   * Source: glTF 2.0 specification, §3.9, and the extensions KHR_materials_*.
   */
-private[models] final class Materials(file: GltfFile, session: Session, textures: Textures):
+private[models] final class Materials(
+    file: GltfFile,
+    session: Session,
+    textures: Textures,
+    media: Media
+):
   private val entries = file.root.list("materials")
   private val surfaces = mutable.HashMap.empty[(Option[Int], Boolean), Surface]
   private val unusedNames = NumberedNames()
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
-  private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
   private val translated = MtlMaterials(session, textures)
 
   def result(): Vector[(String, Declaration)] = named.toVector ++ translated.result()
-  def interiors: Vector[MediumDescription] = media.values.toVector
 
   /** @param index     of the material; none: the default
     * @param hasColors whether vertices have colours
@@ -43,8 +46,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         warnOfOthers(entry)
         index.flatMap(i => file.library.lift(i.size)) match
           case Some(m) => translated(m, hasColors)
-          case None if entry.extension("KHR_materials_unlit").isDefined => unlit(entry, hasColors)
-          case None => surface(entry, hasColors)
+          case None => filled(entry, hasColors)
       }
     )
 
@@ -55,11 +57,22 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private def base(entry: Json): Json =
     entry("pbrMetallicRoughness").getOrElse(Materials.default(session))
 
-  private def surface(entry: Json, hasColors: Boolean): Surface =
+  private def filled(entry: Json, hasColors: Boolean): Surface =
+    val medium = media.extras(entry)
+    val inside = medium.map(media.inside)
+    if medium.exists(_("surface").exists(!_.flag)) then
+      val interface = session.declare("Material", "interface", entry.at, Nil)
+      Surface(MaterialRef.Inline(interface), Vector.empty, None, inside.getOrElse(""))
+    else if entry.extension("KHR_materials_unlit").isDefined then unlit(entry, hasColors)
+    else surface(entry, hasColors, inside)
+
+  /** @param inside name of the medium, if there is one beside that of KHR_materials_volume */
+  private def surface(entry: Json, hasColors: Boolean, inside: Option[String]): Surface =
     val passes = entry.extension("KHR_materials_transmission")
     val volume = passes.orElse(entry.extension("KHR_materials_diffuse_transmission"))
       .flatMap(_ => entry.extension("KHR_materials_volume"))
       .filter(_.number("thicknessFactor", 0) > 0)
+    val isFilled = volume.isDefined || inside.isDefined
     val specularGlossiness = entry.extension("KHR_materials_pbrSpecularGlossiness")
     val params = specularGlossiness.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
       passes.toVector.flatMap: t =>
@@ -71,18 +84,19 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
             "r",
             t.at
           ),
-          Param.bool("thin", t.at, volume.isEmpty)
+          Param.bool("thin", t.at, !isFilled)
         )
     val all = params ++ coat(entry) ++ sheen(entry) ++ anisotropy(entry) ++ iridescence(entry) ++
-      diffuseTransmission(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++
+      diffuseTransmission(entry) ++ dispersion(entry, isFilled && passes.isDefined) ++
       normals(entry, "normalTexture")
     // Two normal maps share a parameter
     val d = session.declare("Material", "gltf", entry.at, all.distinctBy(_.name))
     val alpha = specularGlossiness.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
       opacity(entry, o, "diffuse", hasColors)
     // What is behind a volume's boundary matters
-    val sides = if volume.isEmpty then culling(entry) else None
-    Surface(name(entry, d), alpha ++ sides, emission(entry), volume.fold("")(interior))
+    val sides = if isFilled then None else culling(entry)
+    val interior = inside.orElse(volume.map(media.absorbing)).getOrElse("")
+    Surface(name(entry, d), alpha ++ sides, emission(entry), interior)
 
   private def culling(entry: Json): Option[Param] =
     Option.unless(entry.flag("doubleSided"))(Param.bool("cullbackfaces", entry.at, true))
@@ -252,23 +266,6 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       emitted,
       ""
     )
-
-  /** The medium that absorbs light inside. */
-  private def interior(volume: Json): String =
-    val color = Materials.rgb(volume, "attenuationColor", Rgb.White)
-    val distance = volume.number("attenuationDistance", Double.PositiveInfinity)
-    if color == Rgb.White || distance.isInfinite then ""
-    else
-      if distance <= 0 then volume.fail(s"`attenuationDistance` must be above 0, found $distance")
-      val absorption = color.map(c => (-Math.log(Math.max(c, 1e-6)) / distance).toFloat)
-      val name = s"medium ${media.size + 1}"
-      val params = Vector(
-        Picture.rgb("sigma_a", absorption, volume.at),
-        Picture.rgb("sigma_s", Rgb.Black, volume.at)
-      )
-      val d = session.declare("Medium", "homogeneous", volume.at, params)
-      media(name) = MediumDescription(name, d, GraphicsState.Identity)
-      name
 
 private[models] object Materials:
   /** The colour of a member, or a default: the first three of `count` numbers. */

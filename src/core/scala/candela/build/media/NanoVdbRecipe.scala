@@ -58,10 +58,10 @@ object NanoVdbRecipe
   )
 
   private def read(file: InputFile, p: Param)(using site: Site): Option[Voxels] =
-    def refuse(why: String, help: Option[String] = None) =
+    def refuse(why: String, help: Option[String] = None, of: Param = p) =
       site.problems.missing(
         Code.DamagedVolume,
-        p.valuesAt,
+        of.valuesAt,
         s"can't read `${filename()}`: $why",
         Ignored,
         help
@@ -71,8 +71,10 @@ object NanoVdbRecipe
       NanoVdbFile.read(file, gridName()) match
         case Left(names) =>
           val available = names.distinct.sorted.mkString("`", "`, `", "`")
-          val help = Suggest.nearest(gridName(), names).map(n => s"\"string gridname\" \"$n\"")
-          refuse(s"it has no grid `${gridName()}`, only $available", help)
+          val named = site.declaration.param("gridname")
+          val help = Suggest.nearest(gridName(), names).map: n =>
+            if named.isDefined then s"did you mean `$n`?" else s"\"string gridname\" \"$n\""
+          refuse(s"it has no grid `${gridName()}`, only $available", help, named.getOrElse(p))
         case Right(grid) =>
           val temperature = NanoVdbFile.read(file, temperatureName()).toOption
           if temperature.isEmpty && temperatureName.given_().isDefined then
