@@ -57,8 +57,10 @@ object Converter:
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || from != Dialect.V4
     val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val warnings =
-      translated.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, from, to)
+    val spectral = Option.when(scene.dialect == Dialect.V4 && to != Dialect.V4):
+      SpectralColors.warning(based.scene, program(to), SpectralColors.Plain)
+    val warnings = translated.warnings ++ images.warnings ++ based.warnings ++
+      spectral.flatten ++ interfaces(scene, from, to)
     val start = based.copy(warnings = warnings)
     // v2's and v4's marble are the same
     val solid = baking.filter(_ => Seq(from, to).count(_ == Dialect.V3) == 1) match
@@ -131,11 +133,12 @@ object Converter:
 
   private def forV4(converted: Converted, from: Dialect): Converted =
     val clamped = ColorRanges.clamped(converted)
-    val program = s"pbrt-${from.toString.toLowerCase}"
     if from == Dialect.V4 then clamped
     else
-      val spectral = SpectralColors.warning(clamped.scene, program, SpectralColors.Plain)
+      val spectral = SpectralColors.warning(clamped.scene, program(from), SpectralColors.Plain)
       Converted(InstanceMotions.toV4(clamped.scene), clamped.warnings ++ spectral)
+
+  private def program(d: Dialect) = s"pbrt-${d.toString.toLowerCase}"
 
   /** Declarations of another dialect than the scene's come first: then it is of one dialect. */
   private def foreignDeclarations(scene: SceneDescription): Vector[Pass] =

@@ -5,80 +5,105 @@ import candela.diagnostics.{Code, Problem, SourcePos}
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.color.{ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
+import candela.color.{ColorError, ColoredSpectrum, Colorimetry, Rgb, SmoothSpectra, Spectrum}
+import candela.color.Colorimetry.White
 import candela.image.ImageFiles
-import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
+import candela.scenefile.{
+  Declaration, Dialect, Param, ParamType, SceneDescription, TextureDescription
+}
 
-/** What becomes of colours where pbrt-v4 multiplies spectra instead of three numbers. It considers
-  * single reflections, of the light of each emitter and off each surface, and the albedos of media.
+/** What becomes of colours where pbrt-v4 multiplies spectra and another program three numbers. It
+  * considers one reflection off each surface, in the light of each emitter, and the albedos of
+  * media; or two reflections, if one makes no visible difference. Images count by their mean.
   */
 private[convert] object SpectralColors:
 
   /** Names the reflection whose colour differs most, if it does visibly.
     *
-    * @param from the program that multiplies three numbers
-    * @param visible the least difference of a channel that is reported
+    * @param scene as pbrt-v4 has it
+    * @param program the one that multiplies three numbers
+    * @param visible the least difference that is reported, of the brightest channel
     */
   def warning(
       scene: SceneDescription,
-      from: String,
+      program: String,
       visible: Double = Visible
   ): Option[Problem] =
-    val census = Census()
-    val _ = Declarations.map(scene): d =>
-      census.add(d)
-      d
-    census.worst.filter(_.error > visible).map: difference =>
-      val percent = Math.round(difference.error * 100)
+    val census = Census(scene)
+    def problem(r: Reflection, event: String, where: Option[String]) =
+      val percent = Math.round(r.error * 100)
       Problem.warning(
         Code.ShiftedColors,
-        difference.surface.pos,
-        s"pbrt-v4 multiplies spectra, $from red, green and blue: this colour differs by up to " +
-          s"$percent % of the brightest channel, and by more after several reflections",
-        Some(s"in the light of ${difference.light.pos}").filter(_ =>
-          difference.light.pos != difference.surface.pos
-        )
+        r.surface.pos,
+        s"pbrt-v4 multiplies spectra, $program red, green and blue: $event differs by $percent % " +
+          "of its brightest channel in pbrt-v4",
+        where
       )
+    def single =
+      census.single.filter(_.error > visible).map: r =>
+        problem(r, r.surface.event, Some(s"in the light of ${r.light.pos}").filter(_ => r.isPlaced))
+    def double =
+      census.double.filter(_.error > visible).map: r =>
+        val isSame = r.light.pos == r.surface.pos
+        val event =
+          if isSame then "light reflected twice here" else "light reflected here and elsewhere"
+        problem(r, event, Option.unless(isSame)(s"elsewhere: ${r.light.pos}"))
+    single.orElse(double)
 
-  /** Difference of a channel. */
+  /** Share of the brightest channel. */
   private val Visible = 0.005
 
-  /** The same for scenes of pbrt-v2 and v3, most of which are not meant to be exact. */
+  /** The same for scenes of pbrt, most of which are not meant to be exact. */
   val Plain = 0.02
 
-  private final class LocatedColor(val color: ColoredSpectrum, val pos: SourcePos)
-  private final class Difference(
+  private final class LocatedColor(
+      val color: ColoredSpectrum,
+      val pos: SourcePos,
+      val event: String = "light reflected here"
+  )
+
+  /** @param light or a surface that reflects it first */
+  private final class Reflection(
       val error: Double,
       val surface: LocatedColor,
       val light: LocatedColor
-  )
+  ):
+    def isPlaced: Boolean = light.pos != SourcePos.Nowhere
 
-  private final class Census:
-    private val lights, surfaces = mutable.LinkedHashMap.empty[Rgb, LocatedColor]
+  private final class Census(scene: SceneDescription):
+    private val emitted, reflected = mutable.LinkedHashMap.empty[Rgb, LocatedColor]
+    private val values = Values(Dialect.V4, Dialect.V4, (_, _) => ())
+    private val _ = Declarations.map(scene): d =>
+      add(d)
+      d
+    scene.textures.filter(_.valueType == "spectrum").foreach(addTexture)
 
-    def worst: Option[Difference] =
-      val surfaceColors = surfaces.values.toVector
-      val pairs =
+    private val surfaces = reflected.values.toVector
+    private val lights =
+      if emitted.isEmpty then Vector(LocatedColor(Even, SourcePos.Nowhere))
+      else emitted.values.toVector
+
+    def single: Option[Reflection] =
+      val all =
+        for surface <- surfaces.iterator; light <- lights
+        yield Reflection(error(times(light.color, surface.color)), surface, light)
+      all.maxByOption(_.error)
+
+    def double: Option[Reflection] =
+      val hasDepth = !scene.integrator.flatMap(_.param("maxdepth")).exists(_.ints.exists(_ < 2))
+      val all =
         for
-          surface <- surfaceColors.iterator
-          light <- lights.valuesIterator ++ surfaceColors.iterator ++ Iterator(LocatedColor(
-            White,
-            surface.pos
-          ))
-        yield Difference(error(surface.color, light.color), surface, light)
-      pairs.maxByOption(_.error)
+          light <- lights.iterator if hasDepth
+          i <- surfaces.indices
+          once = times(light.color, surfaces(i).color)
+          other <- surfaces.take(i + 1)
+        yield Reflection(error(times(once, other.color)), surfaces(i), other)
+      all.maxByOption(_.error)
 
-    def add(d: Declaration): Unit = d.category match
-      case "LightSource" | "AreaLightSource" =>
-        for p <- d.params if p.name == "L" || p.name == "I"; c <- constant(p) if c.max > 0 do
-          remember(lights, c * (0.5f / c.max), p)
+    private def add(d: Declaration): Unit = d.category match
+      case "LightSource" | "AreaLightSource" => addLight(d)
       case "Material" =>
-        for p <- d.params if Reflecting(p.name); c <- constant(p) do remember(surfaces, c, p)
-      case "Texture" =>
-        for p <- d.params do
-          if p.name == "tex1" || p.name == "tex2" then
-            constant(p).foreach(remember(surfaces, _, p))
-          else if p.name == "filename" then mean(d, p).foreach(remember(surfaces, _, p))
+        for p <- d.params if Reflecting(p.name) do addSurface(p, d)
       case "Medium" =>
         for
           a <- d.param("sigma_a")
@@ -86,6 +111,38 @@ private[convert] object SpectralColors:
           (absorbed, scattered) <- constant(a).zip(constant(s))
         do addAlbedo(absorbed, scattered, s)
       case _ => ()
+
+    private def addLight(d: Declaration): Unit =
+      val stated = d.params.find(p => p.name == "L" || p.name == "I")
+      val image = d.param("filename").filter(_ => stated.isEmpty)
+      val color =
+        stated.flatMap(emission(
+          _,
+          d
+        )).orElse(image.flatMap(mean(d, _)).map(SpectralColors.spectrum(_, false)))
+      val spectrum = color.getOrElse(Even)
+      if spectrum.components.max > 0f then
+        val pos = stated.orElse(image).fold(d.pos)(_.pos)
+        remember(emitted, spectrum.components * (0.5f / spectrum.components.max), pos)(spectrum)
+
+    private def addTexture(t: TextureDescription): Unit =
+      val d = t.texture
+      for p <- d.params do
+        if TextureColors(p.name) then addSurface(p, d)
+        else if p.name == "filename" && reflected.size < MaxColors then
+          for c <- mean(d, p) do addSurface(c, p, "the mean of light reflected here")
+
+    private def addSurface(p: Param, d: Declaration): Unit = p.paramType match
+      case ParamType.Spectrum =>
+        for s <- values.spectrum(p, d) do
+          val color = Colorimetry.rgb(s, White.D65)
+          val exact = ColoredSpectrum(ColorError.wavelengths.map(s(_).toDouble), color)
+          remember(reflected, color, p.pos)(exact)
+      case _ => constant(p).foreach(addSurface(_, p, "light reflected here"))
+
+    private def addSurface(c: Rgb, p: Param, event: String): Unit =
+      if !Values.isGray(rounded(c)) then
+        remember(reflected, c, p.pos, event)(spectrum(c, c.max <= 1f))
 
     /** pbrt-v4 has a spectrum for each coefficient. */
     private def addAlbedo(absorbed: Rgb, scattered: Rgb, p: Param): Unit =
@@ -95,30 +152,53 @@ private[convert] object SpectralColors:
         val values = s.values.lazyZip(a.values).map((x, y) => x / (x + y))
         val color =
           Rgb(scattered.r / extinction.r, scattered.g / extinction.g, scattered.b / extinction.b)
-        val _ = surfaces.getOrElseUpdate(color, LocatedColor(ColoredSpectrum(values, color), p.pos))
+        remember(reflected, color, p.pos, "light scattered here")(ColoredSpectrum(values, color))
 
-    private def remember(into: mutable.LinkedHashMap[Rgb, LocatedColor], c: Rgb, p: Param): Unit =
-      // Scenes have thousands of colours
-      val rounded = c.map(x => Math.round(x * 50) / 50f)
-      if rounded.isFinite && !Values.isGray(rounded) && into.size < MaxColors then
-        val _ = into.getOrElseUpdate(rounded, LocatedColor(spectrum(c, c.max <= 1f), p.pos))
+    private def emission(p: Param, d: Declaration): Option[ColoredSpectrum] = p.paramType match
+      case ParamType.Blackbody => p.floats.headOption.map(t => light(Spectrum.blackbody(t)))
+      case ParamType.Spectrum => values.spectrum(p, d).map(light)
+      case _ => constant(p).map(spectrum(_, false))
+
+    // Scenes have thousands of colours
+    private def remember(
+        into: mutable.LinkedHashMap[Rgb, LocatedColor],
+        c: Rgb,
+        pos: SourcePos,
+        event: String = "light reflected here"
+    )(color: => ColoredSpectrum): Unit =
+      if c.isFinite && into.size < MaxColors then
+        val _ = into.getOrElseUpdate(rounded(c), LocatedColor(color, pos, event))
 
   private val Reflecting = Set("reflectance", "transmittance", "color", "Kr", "Kt")
+  private val TextureColors =
+    Set("tex1", "tex2", "value", "inside", "outside", "v00", "v01", "v10", "v11")
   private val MaxColors = 100
-  private val White = ColoredSpectrum(ColorError.wavelengths.map(_ => 1.0), Rgb.White)
+  private val Even = ColoredSpectrum(ColorError.wavelengths.map(_ => 1.0), Rgb.White)
 
-  /** In fractions of the brightest that components as large could be. */
-  private def error(a: ColoredSpectrum, b: ColoredSpectrum): Double =
-    val spectral = ColorError.srgb(a.values.lazyZip(b.values).map(_ * _))
-    val color = a.components * b.components
-    val deviation = color - Rgb(spectral(0).toFloat, spectral(1).toFloat, spectral(2).toFloat)
-    deviation.largest / (a.components.max * b.components.max)
+  private def rounded(c: Rgb): Rgb = c.map(x => Math.round(x * 50) / 50f)
+
+  private def times(a: ColoredSpectrum, b: ColoredSpectrum): ColoredSpectrum =
+    ColoredSpectrum(a.values.lazyZip(b.values).map(_ * _), a.components * b.components)
+
+  /** Largest difference of a channel, in fractions of the brightest one of the spectrum. */
+  private def error(product: ColoredSpectrum): Double =
+    val exact = ColorError.srgb(product.values)
+    val color = Rgb(exact(0).toFloat, exact(1).toFloat, exact(2).toFloat)
+    if color.max > 0f then (product.components - color).largest / color.max else 0.0
 
   /** As pbrt-v4: smooth, and if not a reflectance, half as bright as can be. */
   private def spectrum(c: Rgb, isBounded: Boolean): ColoredSpectrum =
-    val scale = if isBounded then 1f else 2 * c.max
-    val smooth = SmoothSpectra.spectrum(c * (1 / scale))
-    ColoredSpectrum(ColorError.wavelengths.map(nm => (smooth(nm) * scale).toDouble), c)
+    if Values.isGray(c) then ColoredSpectrum(Even.values.map(_ * c.r), c)
+    else
+      val scale = if isBounded then 1f else 2 * c.max
+      val smooth = SmoothSpectra.spectrum(c * (1 / scale))
+      ColoredSpectrum(ColorError.wavelengths.map(nm => (smooth(nm) * scale).toDouble), c)
+
+  /** Light of luminance 1. */
+  private def light(s: Spectrum): ColoredSpectrum =
+    val relative = ColorError.wavelengths.map(nm => (s(nm) / Colorimetry.D65(nm)).toDouble)
+    val scale = 1 / ColorError.luminance(relative)
+    ColoredSpectrum(relative.map(_ * scale), Colorimetry.unitLuminance(s).map(Math.max(_, 0f)))
 
   private def constant(p: Param): Option[Rgb] =
     Option.when(p.paramType == ParamType.Rgb && p.floats.length == 3):

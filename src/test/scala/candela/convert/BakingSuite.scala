@@ -48,7 +48,7 @@ class BakingSuite extends AnyFunSuite:
       for k <- 1 to 40 do
         val (u, v) = (0.01f + k * 0.0237f, 0.01f + k * 0.618f % 0.98f)
         assert(distance(before(u, v, Vec3.Zero), after(u, v, Vec3.Zero)) < 2e-3f, (u, v))
-      val Vector(warning) = made.warnings: @unchecked
+      val Vector(warning) = made.warnings.filterNot(_.message.contains("spectra")): @unchecked
       assert(warning.message == "v4 can't multiply two colours; using an image of 128 × 128 " +
         "pixels, which repeats where u or v is not in [0, 1]")
 

@@ -132,14 +132,75 @@ class PicturesSuite extends AnyFunSuite:
         val v4 = scene("spectrum", "Material \"diffuse\" \"texture reflectance\"", encoding)
         meansAreKept(folder, Dialect.V4, Dialect.V3, v4)
 
+  /** The sphere fills the view: each pixel shows one reflection. */
+  private def sphere(dialect: Dialect, color: String, light: String, depth: Int = 1) =
+    val matte =
+      if dialect == Dialect.V4 then "\"diffuse\" \"rgb reflectance\"" else "\"matte\" \"rgb Kd\""
+    view(dialect).replace("maxdepth\" 1", s"maxdepth\" $depth") + "LightSource \"infinite\" " +
+      s"$light\nMaterial $matte [$color] Shape \"sphere\" \"float radius\" 20${end(dialect)}"
+
+  private def shifts(text: String, from: Dialect) =
+    val to = if from == Dialect.V3 then Dialect.V4 else Dialect.V3
+    val made = converted(text, from, to)
+    (made.scene, made.warnings.filter(_.message.contains("multiplies spectra")))
+
   test("colours that pbrt-v4 shows otherwise, since it multiplies spectra, are named"):
-    def said(kd: String, l: String) =
-      val text = view(Dialect.V3) + s"LightSource \"infinite\" $l\nMaterial \"matte\" $kd " +
-        "Shape \"sphere\"\nWorldEnd"
-      converted(text, Dialect.V3, Dialect.V4).warnings.filter(_.message.contains("spectra"))
+    def said(kd: String, l: String) = shifts(sphere(Dialect.V3, kd, l), Dialect.V3)._2
     // pbrt-v3: .7245 .0548 .0158; pbrt-v4: .6661 .0422 .0072
-    val deep = said("\"rgb Kd\" [.8 .2 .1]", "\"xyz L\" [.5 .4 .2]")
+    val deep = said(".8 .2 .1", "\"xyz L\" [.5 .4 .2]")
     assert(deep.length == 1 && deep.head.pos.exists(_.line == 3), deep)
     assert(deep.head.message.contains("pbrt-v3 red, green and blue"))
-    assert(said("\"rgb Kd\" [.5 .5 .5]", "\"xyz L\" [.5 .4 .2]").isEmpty)
-    assert(said("\"rgb Kd\" [.6 .5 .4]", "\"rgb L\" [1 .9 .8]").isEmpty)
+    assert(said(".5 .5 .5", "\"xyz L\" [.5 .4 .2]").isEmpty)
+    assert(said(".6 .5 .4", "\"rgb L\" [1 .9 .8]").isEmpty)
+
+  test("the difference that is named is that of the images, in both directions"):
+    for
+      from <- Seq(Dialect.V3, Dialect.V4)
+      light <- Seq("rgb L\" [1 1 1]", "rgb L\" [1 .1 .1]", "rgb L\" [.1 .2 .9]",
+        "rgb L\" [.2 1 .1]", "blackbody L\" 2500")
+    do
+      val text = sphere(from, ".9 .2 .1", "\"" + light)
+      val (made, warnings) = shifts(text, from)
+      val (before, after) = (SceneTexts.mean(text, from), SceneTexts.mean(made))
+      val inV4 = if from == Dialect.V4 then before else after
+      val percent = 100 * (before - after).largest / inV4.max
+      if light.contains("1 1 1") then assert(warnings.isEmpty && percent < 0.5f, s"$percent")
+      else
+        val stated = "(\\d+) % of its brightest channel in pbrt-v4".r
+          .findFirstMatchIn(warnings.head.message).get.group(1).toInt
+        assert(Math.abs(stated - percent) < 1f, s"$from, $light: $stated, $percent")
+        assert(warnings.length == 1 && warnings.head.pos.exists(_.line == 3))
+        assert(warnings.head.help.exists(_.contains(":2:")), warnings.head.help)
+
+  test("colours that differ after two reflections only are named as such"):
+    def said(depth: Int, more: String) =
+      val text = sphere(Dialect.V4, ".9 .2 .1", s"\"rgb L\" [2 2 2] $more", depth)
+      shifts(text, Dialect.V4)._2.map(p => (p.message, p.help))
+    assert(said(1, "").isEmpty)
+    val twice = said(2, "")
+    assert(twice.exists((m, help) => m.contains("light reflected twice here") && help.isEmpty))
+    // In white light alone, a wall of green has the greater difference from red
+    val both = said(2, "\nMaterial \"diffuse\" \"rgb reflectance\" [.1 .8 .1] Shape \"disk\"")
+    assert(
+      both.exists((m, help) =>
+        m.contains("reflected here and elsewhere") && help.exists(_.startsWith("elsewhere: "))
+      ),
+      both
+    )
+
+  test("spectra of pbrt-v4's surfaces are compared with their colours"):
+    val light = "\"blackbody L\" 6500"
+    val lines = sphere(Dialect.V4, ".9 .2 .1", light)
+      .replace("rgb reflectance\" [.9 .2 .1]", "spectrum reflectance\" [400 0 580 0 581 1 700 1]")
+      .replace(light, "\"rgb L\" [.2 1 .1]")
+    assert(shifts(lines, Dialect.V4)._2.length == 1)
+
+  test("float textures have no colours"):
+    Samples.inFolder: folder =>
+      coloured(folder, "numbers.png", 4, 4)
+      def count(kind: String) =
+        val text = view(Dialect.V4) + "LightSource \"infinite\" \"rgb L\" [1 .2 .1]\n" +
+          s"Texture \"t\" \"$kind\" \"imagemap\" \"string filename\" \"numbers.png\""
+        val made = converted(text, Dialect.V4, Dialect.V3, folder)
+        made.warnings.count(_.message.contains("the mean of light reflected here"))
+      assert(count("float") == 0 && count("spectrum") == 1)
