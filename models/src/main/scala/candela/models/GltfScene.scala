@@ -109,7 +109,7 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
     val isOneOfSeveral = sensor.nonEmpty && cameras.size > 1
     val named = if isOneOfSeveral then View.numbered(framed, session, index) else framed
     val eye = named.worldToCamera.start.inverse.point(Vec3.Zero)
-    named.copy(isFollowed = index + 1 < cameras.size, cameraMedium = media.around(eye))
+    named.copy(isFollowed = index + 1 < cameras.size, cameraMedium = media.mediumAt(eye))
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))

@@ -76,8 +76,8 @@ private[models] final class Media(file: GltfFile, session: Session):
 
   /** The box around the grid of a node, if it has one. */
   def apply(p: PlacedNode): Option[ShapeDescription] =
-    val known = Media.Coefficients ++ Vector("box", "grid", "uri")
-    Extras.of(p.node, "nodes", "medium", session)(known*).map: e =>
+    val memberNames = Media.Coefficients ++ Vector("box", "grid", "uri")
+    Extras.of(p.node, "nodes", "medium", session)(memberNames*).map: e =>
       val at = e.entry.at
       val uri = e.entry.required("uri")
       val members = Vector(
@@ -112,7 +112,7 @@ private[models] final class Media(file: GltfFile, session: Session):
     Bounds3(Vec3(n(0), n(1), n(2)), Vec3(n(3), n(4), n(5)))
 
   /** The medium of a box around a place; empty: none. */
-  def around(p: Vec3): String = boxes.find(_.contains(p)).fold("")(_.medium)
+  def mediumAt(p: Vec3): String = boxes.find(_.contains(p)).fold("")(_.medium)
 
   private def warnOfOverlaps(): Unit =
     val sorted = boxes.sortBy(_.inWorld.min.x).toVector
