@@ -459,7 +459,9 @@ SCENES = {
     "exposure of the view": lambda: changed(lit(), graded),
     "border": lambda: changed(lit(), bordered),
     "volume": lambda: clouded(Color=(0.9, 0.6, 0.3, 1), Density=3),
-    "volume without a material": lambda: changed(clouded(), lambda m: m.cloud.data.materials.clear()),
+    "volume without a material": lambda: changed(
+        clouded(), lambda made: made.cloud.data.materials.clear()
+    ),
     "volume that absorbs": lambda: clouded(
         Color=(0.3, 0.5, 0.7, 1), Absorption_Color=(0.5, 0.2, 0.1, 1), Density=4, Anisotropy=0.6
     ),
@@ -682,8 +684,9 @@ class Exporting(unittest.TestCase):
 
         model, none = warnings(Density=2)
         self.assertEqual(none, [])
-        medium = next(n for n in model["nodes"] if "extras" in n and "medium" in n["extras"]["candela"])
-        self.assertEqual(medium["extras"]["candela"]["medium"]["grid"], "density")
+        extras = [n["extras"]["candela"] for n in model["nodes"] if "extras" in n]
+        media = [fields["medium"] for fields in extras if "medium" in fields]
+        self.assertEqual([medium["grid"] for medium in media], ["density"])
         for named, inputs in (
             ("blackbody", {"Blackbody_Intensity": 1}),
             ("emission", {"Emission_Strength": 1}),
