@@ -425,6 +425,80 @@ class InMemory(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "Broken"):
             candela.mesh(Broken(), [[0, 1, 2]])
 
+    def test_what_contains_itself_is_a_fault_with_its_key(self):
+        scene, endless = mitsuba(), []
+        scene["red"]["nested"] = scene["red"]
+        endless.append(endless)
+        scene["ball"]["center"] = endless
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(scene)
+        told = {p.key: p.message for p in caught.exception.problems}
+        self.assertEqual(set(told), {"red", "ball"})
+        self.assertIn("contains itself", told["red"])
+        with self.assertRaisesRegex(candela.SceneError, "red.reflectance: error: it contains"):
+            candela.load_dict(mitsuba()).parameters()["red.reflectance"] = scene["red"]
+
+    def test_problems_of_a_dict_name_no_text_and_no_temporary_files(self):
+        scene = mitsuba()
+        pixels = np.full((2, 2, 3), np.nan, "f4")
+        scene["red"]["reflectance"] = {"type": "bitmap", "data": pixels}
+        scene["ball"]["bsdf"] = {"type": "diffuse", "id": "sky"}
+        scene["other"] = {"type": "sphere", "radius": "$r", "bsdf": {"type": "ref", "id": "red"}}
+        undefined = candela.check(scene)
+        problems = undefined + candela.check(scene, define={"r": 1})
+        scene["other"]["radius"], scene["ball"]["bsdf"]["id"] = 1, "green"
+        problems += candela.check(scene)
+        texts = "\n".join(p.text for p in problems)
+        for word in ("scene.xml", "candela-", "<", "-D"):
+            self.assertNotIn(word, texts)
+        self.assertIn("define={'r': …}", texts)
+        self.assertIn("`scene.parameters()` sets numbers", texts)
+        self.assertRegex(texts, "the id `sky` is repeated; the first is at `(sky|ball.bsdf)`")
+        self.assertIn("red.reflectance.data: warning: texels are NaN", texts)
+
+    def test_an_invalid_angle_is_told_once(self):
+        for fov in (-5, 180, 400):
+            scene = mitsuba()
+            scene["sensor"]["fov"] = fov
+            self.assertEqual([p.key for p in candela.check(scene)], ["sensor.fov"])
+
+    def test_models_have_no_parameters(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file = Path(folder) / "a.gltf"
+            file.write_text("{}")
+            with self.assertRaisesRegex(candela.UsageError, "a.gltf` has no parameters: Mitsuba"):
+                candela.load_file(file).parameters()
+
+    def test_names_of_scenes_are_no_options(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            before = os.getcwd()
+            self.addCleanup(os.chdir, before)
+            os.chdir(folder)
+            for name, text in (("-x.xml", XML), ("--y.pbrt", SCENE)):
+                Path(name).write_text(text)
+                image = candela.render(name, spp=1).rgb
+                np.testing.assert_array_equal(candela.load_file(name).render(spp=1).rgb, image)
+            os.chdir(before)
+            candela.close()
+
+    def test_missing_files_are_named(self):
+        for options in ({"outfile": os.path.join("no folder", "x.png")}, {}):
+            scene = candela.load_string(XML) if options else "nope.pbrt"
+            with self.assertRaises(candela.MissingFileError) as caught:
+                candela.render(scene, spp=1, **options)
+            self.assertEqual(caught.exception.file, options.get("outfile", "nope.pbrt"))
+            self.assertEqual(caught.exception.problems[0].file, caught.exception.file)
+
+    def test_a_command_line_in_one_piece_is_told_how_to_separate_it(self):
+        for words in (["compare", "a.exr", "b.exr"], "compare a.exr b.exr", ("compare", "a.exr")):
+            with self.assertRaisesRegex(candela.UsageError, r'candela.run\("compare", "a.exr"'):
+                candela.run(words)
+
+    def test_a_word_of_an_explanation_is_not_suggested_again(self):
+        with self.assertRaises(candela.UsageError) as caught:
+            candela.load_dict(mitsuba()).render(sensor="sensor")
+        self.assertNotIn("did you mean", str(caught.exception))
+
     def test_values_that_the_scene_has_not_are_told_of(self):
         values = candela.load_string(XML).parameters()
         with self.assertRaisesRegex(KeyError, "did you mean 'red.reflectance.value'"):
@@ -878,6 +952,17 @@ class Images(unittest.TestCase):
         for wrong in (array[0], np.ones((5, 3, 3), "u1"), array):
             with self.assertRaisesRegex(ValueError, "needs an array of .* found an array of "):
                 image.rgb = wrong
+
+    def test_images_are_added_and_multiplied(self):
+        values = np.arange(1, 13, dtype="f4").reshape(2, 2, 3)
+        i = candela.Image(values)
+        for image, array in (
+            (i + i, 2 * values), (1 + i, values + 1), (i - 1, values - 1), (1 - i, 1 - values),
+            (i * 2, 2 * values), (values * i, values**2), (i / i, values / values), (1 / i, 1 / values),
+        ):
+            np.testing.assert_array_equal(image, array)
+        self.assertEqual((i.mean(), np.mean(i)), (6.5, 6.5))
+        np.testing.assert_array_equal(i.mean(axis=(0, 1)), [5.5, 6.5, 7.5])
 
     def test_pictures_show_the_denoised_image_and_alpha(self):
         rgb, alpha = np.full((2, 2, 3), 0.25, "f4"), np.full((2, 2), 0.5, "f4")

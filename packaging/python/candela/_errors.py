@@ -6,12 +6,13 @@ import difflib
 import os
 import re
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Iterable, List, Optional, Tuple
 
 
 # Of each line of a dict's text: its place, and the number of values if it is a list
 Keys = List[Tuple[str, int]]
+OF_DEFINE = -1  # instead of a number of values: a text `$name`
 
 
 @dataclass(frozen=True)
@@ -94,8 +95,13 @@ _WORDS = {
     ".npz files store linear light": "`image.rgb` is linear light",
 }
 
+_DEFAULT = re.compile(r'write <default name="(\w+)" value="…"/> before it, or use -D\w+=…')
 _COLOR = "must be a colour or a texture, found a vector"
 _ELEMENT = re.compile(r'<(\w+) type="(\w+)">')
+_LINE = re.compile(r"scene\.xml:(\d+):\d+")
+# Temporary files of arrays: at the start of a message, or named in it
+_ARRAY = re.compile(r"^[^`]*?\bcandela-\w{8}\.(?:exr|png|ply): ")
+_ARRAYS = re.compile(r"`[^`]*\bcandela-\w{8}\.(?:exr|png|ply)`")
 
 
 def is_note(line: str) -> bool:
@@ -109,6 +115,7 @@ def in_python(line: str) -> str:
         return line
     for words, others in _WORDS.items():
         line = line.replace(words, others)
+    line = _DEFAULT.sub(r"define={'\1': …} gives its value", line)
     line = _LONG.sub(r"found `\1…`", line)
     line = _HELP.sub(r"`help(candela.\1)` and COMMANDS.md say", line)
 
@@ -149,8 +156,12 @@ def _problem(lines: List[str], keys: Optional[Keys]) -> Problem:
         start = f"{key}: " if key else ""
         below = [line for line in lines[1:] if not _EXCERPT.match(line)]
         below = [_ELEMENT.sub(r'"\1": {"type": "\2"}', line) for line in below]
+        message = _ARRAYS.sub("the array", _ARRAY.sub("", message))
+        message = _LINE.sub(lambda at: f"`{keys[int(at[1]) - 1][0]}`", message)
         if message.endswith(_COLOR):
             below.append(' a colour is {"type": "rgb", "value": […]}')
+        if message.endswith("found a string") and size == OF_DEFINE:
+            below.append(" `$name` is a text: `scene.parameters()` sets numbers")
         if message.endswith("found a string") and size > 1:
             message = message.replace("a vector", "3 numbers")
             message = message.replace("found a string", f"found {size} numbers")
@@ -167,6 +178,7 @@ def _problem(lines: List[str], keys: Optional[Keys]) -> Problem:
     )
 
 
+_NAMED = re.compile("`([^`]+)`")
 _MISSING = re.compile("^E010[14] |: no such folder: ")
 
 
@@ -191,6 +203,10 @@ def error_of(code: int, lines: List[str], keys: Optional[Keys] = None) -> Candel
     kind = {1: SceneError, 2: UsageError}.get(code, InternalError)
     if problems and _MISSING.search(f"{problems[0].number} {problems[0].message}"):
         kind = MissingFileError
+        first = problems[0]
+        named = _NAMED.search(first.message)
+        if named and not (first.file or first.key):
+            problems[0] = replace(first, file=named[1])
     return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)
 
 

@@ -122,9 +122,30 @@ class Image:
         values = values if dtype is None else values.astype(dtype)
         return values.copy() if copy else values
 
+    def __add__(self, other: Any) -> Any:
+        """The sum of ``rgb`` and numbers or another image, as an array; so are the others."""
+        return np.asarray(self) + other
+
     def __sub__(self, other: Any) -> Any:
-        """The difference of ``rgb``, as an array."""
-        return np.asarray(self) - np.asarray(other)
+        return np.asarray(self) - other
+
+    def __rsub__(self, other: Any) -> Any:
+        return other - np.asarray(self)
+
+    def __mul__(self, other: Any) -> Any:
+        return np.asarray(self) * other
+
+    def __truediv__(self, other: Any) -> Any:
+        return np.asarray(self) / other
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return other / np.asarray(self)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def mean(self, *axis: Any, **options: Any) -> Any:
+        """Of ``rgb``, as NumPy's."""
+        return np.asarray(self).mean(*axis, **options)
 
     def save(self, path: PathLike) -> None:
         """Writes a file in the format of its name, as ``candela image`` does: ``.exr`` and ``.npz``

@@ -321,6 +321,12 @@ def run(*words: Any) -> str:
     """
     if any(isinstance(word, (Scene, dict)) for word in words):
         raise UsageError("candela.run takes files: save the scene, as scene.save('scene.xml')")
+    is_line = len(words) == 1 and isinstance(words[0], str) and " " in words[0].strip()
+    if is_line or any(isinstance(word, (list, tuple)) for word in words):
+        raise UsageError(
+            "candela.run takes each word as an argument of its own, such as "
+            'candela.run("compare", "a.exr", "b.exr")'
+        )
     child = start([str(plain(word)) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     outputs: Dict[str, str] = {}
 

@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from typing import Any, Dict, List, Optional, Tuple
 
 from ._arrays import ArrayFile, texture
-from ._errors import CandelaWarning, Keys, Problem, SceneError, user_frame
+from ._errors import OF_DEFINE, CandelaWarning, Keys, Problem, SceneError, user_frame
 from ._plugins import ELEMENTS
 from ._transform import is_transform, rows
 from ._values import described, plain
@@ -62,7 +62,15 @@ class FileElement(ET.Element):
 
 def element_of(name: str, value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
     """The element of a value; what is wrong with it is added to the faults."""
+    count = len(faults)
+    try:
+        return _element(name, value, key, faults)
+    except RecursionError:
+        faults[count:] = [fault(key, "it contains itself, or is nested too deep")]
+        return None
 
+
+def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
     def wrong(message: str) -> None:
         faults.append(fault(key, message))
 
@@ -145,7 +153,7 @@ def _object(
         if kind in ("bitmap", "envmap") and inner in ("data", "bitmap"):
             child = array_of(each, f"{key}.{inner}", faults, value.get("raw") is True)
         else:
-            child = element_of(inner, each, f"{key}.{inner}", faults)
+            child = _element(inner, each, f"{key}.{inner}", faults)
         if child is not None:
             tree.append(child)
             if element == "bsdf":
@@ -263,6 +271,8 @@ def in_lines(root: ET.Element) -> Tuple[str, Keys]:
 
 def _size(element: ET.Element) -> int:
     """How many values a list has that is a string of XML; one of three would be a vector."""
+    if element.tag == "string" and element.get("value", "").startswith("$"):
+        return OF_DEFINE
     try:
         size = len([float(x) for x in element.get("value", "").split(",")])
     except ValueError:

@@ -199,8 +199,9 @@ class CommandLineSuite extends AnyFunSuite:
       assert(answer.err.linesIterator.next().startsWith("error: "))
       assert(answer.out.isEmpty)
 
-  test("an option that resembles none gets no suggestion"):
-    assert(!parse("--xyzzy a.pbrt").left.toOption.get.err.contains("did you mean"))
+  test("an option that resembles none gets no suggestion, nor a value that is named already"):
+    for line <- Vector("--xyzzy a.pbrt", "--sensor sensor a.xml") do
+      assert(!parse(line).left.toOption.get.err.contains("did you mean"), line)
 
   private def help(line: String, columns: Int = 80): Vector[String] =
     val answer = CommandLine.parse(line.split(' ').toVector, columns).left.toOption.get
