@@ -61,6 +61,23 @@ private[assimp] object AssimpFiles:
        |}
        |""".stripMargin
 
+  /** A morph target that raises the triangle by a metre, with a weight of 1/4. */
+  val morphed: (String, String) = (
+    """Geometry: 10, "Geometry::raised", "Shape" { Version: 100
+      |  Indexes: *3 { a: 0,1,2 }
+      |  Vertices: *9 { a: 0,0,100,0,0,100,0,0,100 }
+      |  Normals: *9 { a: 0,0,0,0,0,0,0,0,0 }
+      |}
+      |Deformer: 11, "Deformer::d", "BlendShape" { Version: 100 }
+      |Deformer: 12, "SubDeformer::raised", "BlendShapeChannel" { Version: 100
+      |  DeformPercent: 25
+      |  FullWeights: *1 { a: 100 }
+      |}""".stripMargin,
+    """C: "OO",10,12
+      |C: "OO",12,11
+      |C: "OO",11,1""".stripMargin
+  )
+
   def color(name: String, r: Double, g: Double, b: Double): String =
     s"""P: "$name", "Color", "", "A",$r,$g,$b\n"""
   def numeric(name: String, x: Double): String = s"""P: "$name", "Number", "", "A",$x\n"""

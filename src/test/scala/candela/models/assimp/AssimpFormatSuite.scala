@@ -42,6 +42,11 @@ class AssimpFormatSuite extends AnyFunSuite:
       Vector(0, 3000, 0)
     ))
 
+  test("weights of FBX's morph targets, which Assimp does not read, are 0, with a warning"):
+    val scene = read("a.fbx", fbx("", lights = morphed))
+    assert(positions(scene) == positions(read("a.fbx", fbx(""))))
+    assert(warnings(scene).exists(_.contains("the weights of its morph targets are not read")))
+
   test("materials of FBX become what Blender makes of them"):
     val properties = color("DiffuseColor", 0.5, 0.25, 0.125) + numeric("ShininessExponent", 25) +
       numeric("SpecularFactor", 0.125) + numeric("ReflectionFactor", 0.75) + numeric("Opacity", 0.5)

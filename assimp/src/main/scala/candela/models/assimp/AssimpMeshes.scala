@@ -2,14 +2,21 @@ package candela.models.assimp
 
 import candela.base.loop
 import candela.diagnostics.Code
+import candela.math.Vec3
 import candela.models.{MeshFormat, Session}
 
 import org.lwjgl.assimp.*
 
 import scala.collection.mutable
+import scala.jdk.CollectionConverters.*
 
 /** Meshes of Assimp as those of glTF. */
-private[assimp] final class AssimpMeshes(scene: AIScene, session: Session, arrays: Arrays):
+private[assimp] final class AssimpMeshes(
+    scene: AIScene,
+    session: Session,
+    suffix: String,
+    arrays: Arrays
+):
   val all: Vector[AIMesh] = Arrays.all(scene.mMeshes)(AIMesh.create)
   val entries: mutable.ArrayBuffer[ujson.Obj] = mutable.ArrayBuffer.empty
   private val primitives = mutable.HashMap.empty[Int, Option[ujson.Obj]]
@@ -27,12 +34,22 @@ private[assimp] final class AssimpMeshes(scene: AIScene, session: Session, array
             "name" -> first.mName.dataString,
             "primitives" -> ujson.Arr.from(described.map(_._2))
           )
-          val weights = Arrays.all(first.mAnimMeshes)(AIAnimMesh.create).map(_.mWeight.toDouble)
+          val weights = weightsOf(first)
           if weights.nonEmpty then entry("weights") = ujson.Arr.from(weights)
           entries += entry
           entries.size - 1
       }
     )
+
+  private def weightsOf(mesh: AIMesh): Vector[Double] =
+    val weights = Arrays.all(mesh.mAnimMeshes)(AIAnimMesh.create).map(_.mWeight.toDouble)
+    // Assimp has 1 for each of FBX, whatever the file says
+    if suffix != "fbx" || weights.isEmpty then weights
+    else
+      val message = "the weights of its morph targets are not read; they are 0, unless --at " +
+        "shows an animation that sets them"
+      session.warn(AssimpScene.position(session, s"mesh ${mesh.mName.dataString}"), message)
+      weights.map(_ => 0.0)
 
   /** How many morph targets a mesh has. */
   def targets(mesh: Int): Int = entries(mesh).value.get("weights").fold(0)(_.arr.size)
@@ -93,6 +110,21 @@ private[assimp] final class AssimpMeshes(scene: AIScene, session: Session, array
     attributes("JOINTS_0") = arrays.ints("VEC4", mesh.mNumVertices, joints.iterator)
     attributes("WEIGHTS_0") = arrays.floats("VEC4", mesh.mNumVertices, weights.iterator)
 
+  /** Normals of a mesh with its vertices at other positions: the means of its triangles' ones. */
+  private def normals(mesh: AIMesh, positions: AIVector3D.Buffer): Array[Float] =
+    def point(i: Int) =
+      val p = positions.get(i)
+      Vec3(p.x, p.y, p.z)
+    val sums = Array.fill(positions.remaining)(Vec3.Zero)
+    for face <- mesh.mFaces.iterator.asScala if face.mNumIndices == 3 do
+      val corners = Vector.tabulate(3)(face.mIndices.get(_))
+      val Vector(a, b, c) = corners.map(point): @unchecked
+      val normal = (b - a) cross (c - a)
+      for i <- corners do sums(i) = sums(i) + normal
+    sums.flatMap: n =>
+      val length = n.length
+      if length > 0f then Array(n.x / length, n.y / length, n.z / length) else new Array[Float](3)
+
   /** Assimp has the morphed vertices, glTF what they differ by. */
   private def target(mesh: AIMesh, morphed: AIAnimMesh): ujson.Obj =
     def difference(all: AIVector3D.Buffer | Null, from: AIVector3D.Buffer | Null) =
@@ -100,12 +132,21 @@ private[assimp] final class AssimpMeshes(scene: AIScene, session: Session, array
         a <- Option(all)
         b <- Option(from)
         if a.remaining == b.remaining
-      yield
-        val values = Iterator.range(0, a.remaining).flatMap: i =>
-          val (p, q) = (a.get(i), b.get(i))
-          Iterator(p.x - q.x, p.y - q.y, p.z - q.z)
-        ujson.Num(arrays.floats("VEC3", a.remaining, values))
-    ujson.Obj.from(
-      difference(morphed.mVertices, mesh.mVertices).map("POSITION" -> _) ++
-        difference(morphed.mNormals, mesh.mNormals).map("NORMAL" -> _)
-    )
+      yield Array.tabulate(3 * a.remaining): k =>
+        val (p, q) = (a.get(k / 3), b.get(k / 3))
+        k % 3 match
+          case 0 => p.x - q.x
+          case 1 => p.y - q.y
+          case _ => p.z - q.z
+    val moves = difference(morphed.mVertices, mesh.mVertices)
+    // Blender writes zeros, of which Assimp leaves rounding errors
+    val written = difference(morphed.mNormals, mesh.mNormals).filter(_.exists(Math.abs(_) > 1e-5f))
+    def computed =
+      for
+        positions <- Option(morphed.mVertices)
+        if moves.isDefined && mesh.mNormals != null
+      yield normals(mesh, positions).zip(normals(mesh, mesh.mVertices)).map(_ - _)
+    val turns = written.orElse(computed)
+    def array(values: Array[Float]) =
+      ujson.Num(arrays.floats("VEC3", values.length / 3, values.iterator))
+    ujson.Obj.from(moves.map("POSITION" -> array(_)) ++ turns.map("NORMAL" -> array(_)))

@@ -22,7 +22,7 @@ private[assimp] final class AssimpScene(
 ):
   private val arrays = Arrays()
   private val materials = AssimpMaterials(scene, session, suffix)
-  private val meshes = AssimpMeshes(scene, session, arrays)
+  private val meshes = AssimpMeshes(scene, session, suffix, arrays)
   private val views = AssimpViews(scene, session, suffix)
   private val nodes = mutable.ArrayBuffer.empty[ujson.Obj]
 
