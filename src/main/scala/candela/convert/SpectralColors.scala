@@ -8,6 +8,7 @@ import scala.util.Try
 import candela.color.{ColorError, ColoredSpectrum, Colorimetry, Rgb, SmoothSpectra, Spectrum}
 import candela.color.Colorimetry.White
 import candela.image.ImageFiles
+import candela.io.SceneFolder
 import candela.scenefile.{
   Declaration, Dialect, Param, ParamType, SceneDescription, TextureDescription
 }
@@ -72,6 +73,7 @@ private[convert] object SpectralColors:
 
   private final class Census(scene: SceneDescription):
     private val emitted, reflected = mutable.LinkedHashMap.empty[Rgb, LocatedColor]
+    private val means = mutable.HashMap.empty[(SceneFolder, String), Option[Rgb]]
     private val values = Values(Dialect.V4, Dialect.V4, (_, _) => ())
     private val _ = Declarations.map(scene): d =>
       add(d)
@@ -119,18 +121,22 @@ private[convert] object SpectralColors:
         stated.flatMap(emission(
           _,
           d
-        )).orElse(image.flatMap(mean(d, _)).map(SpectralColors.spectrum(_, false)))
+        )).orElse(image.flatMap(meanOf(d, _)).map(SpectralColors.spectrum(_, false)))
       val spectrum = color.getOrElse(Even)
       if spectrum.components.max > 0f then
         val pos = stated.orElse(image).fold(d.pos)(_.pos)
         remember(emitted, spectrum.components * (0.5f / spectrum.components.max), pos)(spectrum)
+
+    /** Lights share images. */
+    private def meanOf(d: Declaration, p: Param): Option[Rgb] =
+      means.getOrElseUpdate((d.folder, p.strings.head), mean(d, p))
 
     private def addTexture(t: TextureDescription): Unit =
       val d = t.texture
       for p <- d.params do
         if TextureColors(p.name) then addSurface(p, d)
         else if p.name == "filename" && reflected.size < MaxColors then
-          for c <- mean(d, p) do addSurface(c, p, "the mean of light reflected here")
+          for c <- meanOf(d, p) do addSurface(c, p, "the mean of light reflected here")
 
     private def addSurface(p: Param, d: Declaration): Unit = p.paramType match
       case ParamType.Spectrum =>
