@@ -82,38 +82,30 @@ final class SolidPrimitives(
 final class MaskedTriangles(soup: TriangleSoup, masks: Masks):
   def isEmpty: Boolean = masks.meshes == 0
 
-  /** As [[TriangleTest.intersect]], whose parameters these are, with the alpha test. */
+  /** As [[TriangleTest.intersect]], whose parameters these are, with the alpha test.
+    *
+    * @param shadow whether the query is for occlusion: the ray stays as it is, but `hit` changes
+    */
   def intersect(
       v: Array[Float],
       at: Int,
       stride: Int,
       primitive: Int,
       ray: Ray,
-      hit: Hit
-  ): Boolean =
-    val (tMax, u0, v0) = (ray.tMax, hit.u, hit.v)
-    if !TriangleTest.intersect(v, at, stride, primitive, ray, hit) then false
-    else if isHole(primitive, ray, hit, shadow = false) then
-      ray.tMax = tMax
-      hit.u = u0
-      hit.v = v0
-      false
-    else true
-
-  /** As [[TriangleTest.isHit]], with the alpha test of shadow rays; changes `hit`. */
-  def isHit(
-      v: Array[Float],
-      at: Int,
-      stride: Int,
-      primitive: Int,
-      ray: Ray,
-      hit: Hit
+      hit: Hit,
+      shadow: Boolean
   ): Boolean =
     val tMax = ray.tMax
-    val isStopped = TriangleTest.intersect(v, at, stride, Int.MaxValue, ray, hit) &&
-      !isHole(primitive, ray, hit, shadow = true)
-    ray.tMax = tMax
-    isStopped
+    val u0 = hit.u
+    val v0 = hit.v
+    val number = if shadow then Int.MaxValue else primitive
+    val isMet = TriangleTest.intersect(v, at, stride, number, ray, hit) &&
+      !isHole(primitive, ray, hit, shadow)
+    if !isMet then
+      hit.u = u0
+      hit.v = v0
+    if shadow || !isMet then ray.tMax = tMax
+    isMet
 
   private def isHole(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     val mask = masks.ofMesh(soup.meshOf(primitive))
@@ -145,7 +137,7 @@ final class MaskedPrimitives(
       val primitive = order(slot)
       val isCloser =
         if primitive < triangles then
-          maskedTriangles.intersect(corners, 9 * slot, 1, primitive, ray, hit)
+          maskedTriangles.intersect(corners, 9 * slot, 1, primitive, ray, hit, shadow = false)
         else PackedPrimitives.withTies(primitive, ray, hit)(testShape(primitive, ray, hit, false))
       if isCloser then
         hit.primitive = primitive
@@ -161,7 +153,7 @@ final class MaskedPrimitives(
       val primitive = order(slot)
       hasHit =
         if primitive < triangles then
-          maskedTriangles.isHit(corners, 9 * slot, 1, primitive, ray, hit)
+          maskedTriangles.intersect(corners, 9 * slot, 1, primitive, ray, hit, shadow = true)
         else testShape(primitive, ray, hit, shadow = true)
       slot += 1
     ray.tMax = tMax

@@ -98,19 +98,14 @@ final class Mesh(
   def smooth: Mesh =
     if normals.nonEmpty then this
     else
-      val sums = new Array[Float](positions.length)
-      val weightedNormals = cornerNormals
-      loop(indices.length): c =>
-        loop(3)(k => sums(3 * indices(c) + k) += weightedNormals(3 * c + k))
+      val sums = VertexNormals.ofVertices(centredIfFar, indices)
       Mesh(positions, sums, uvs, indices, rests).unit
 
-  /** Normals of the triangles times their angles, at each corner. */
-  private def cornerNormals: Array[Float] =
-    VertexNormals.ofCorners(if isFar then centred else positions, indices)
+  private def centredIfFar: Array[Float] = if isFar then centred else positions
 
   /** With vertex normals of its triangles, which are smooth across edges of at most an angle. */
   def smoothBelow(degrees: Double): Mesh =
-    val weightedNormals = cornerNormals
+    val weightedNormals = VertexNormals.ofCorners(centredIfFar, indices)
     def normalAt(c: Int) =
       Vec3(weightedNormals(3 * c), weightedNormals(3 * c + 1), weightedNormals(3 * c + 2))
     def unitOf(v: Vec3) = if v.lengthSquared > 0f then v.normalized else v

@@ -118,10 +118,8 @@ private[convert] object SpectralColors:
       val stated = d.params.find(p => p.name == "L" || p.name == "I")
       val image = d.param("filename").filter(_ => stated.isEmpty)
       val color =
-        stated.flatMap(emission(
-          _,
-          d
-        )).orElse(image.flatMap(meanOf(d, _)).map(SpectralColors.spectrum(_, false)))
+        stated.flatMap(emission(_, d))
+          .orElse(image.flatMap(meanOf(d, _)).map(SpectralColors.spectrum(_, false)))
       val spectrum = color.getOrElse(Even)
       if spectrum.components.max > 0f then
         val pos = stated.orElse(image).fold(d.pos)(_.pos)

@@ -118,7 +118,15 @@ private[tracing] object WideWalk:
             val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
             val isHit =
               if tree.isMasked then
-                tree.masked.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
+                tree.masked.intersect(
+                  tree.blocks,
+                  corners + k,
+                  lanes,
+                  owner,
+                  ray,
+                  hit,
+                  shadow = false
+                )
               else if marksEdges && bit < FirstEdgeBit then inside(corners + k, owner)
               else TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
             if isHit then
@@ -175,7 +183,7 @@ private[tracing] object WideWalk:
           hasHit =
             if tree.isMasked then
               val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
-              tree.masked.isHit(tree.blocks, corners + k, lanes, owner, ray, hit)
+              tree.masked.intersect(tree.blocks, corners + k, lanes, owner, ray, hit, shadow = true)
             else if marksEdges && bit < FirstEdgeBit then inside(corners + k, 0)
             else TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit)
           if hasHit then candidateBits = 0

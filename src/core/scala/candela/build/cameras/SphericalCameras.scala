@@ -21,12 +21,7 @@ abstract class PanoramaRecipe(name: String, meaning: String, dialects: Set[Diale
   )
   noMeaning("everything is in focus")(
     float("lensradius", "radius of the aperture; 0: pinhole", unit = "scene units")(0f),
-    float(
-      "focaldistance",
-      "distance to the plane in focus",
-      unit = "scene units",
-      range = Range.above(0f).unclamped
-    )(1e30f)
+    float("focaldistance", "distance to the plane in focus", unit = "scene units")(1e30f)
   )
 
 object EnvironmentRecipe

@@ -6,6 +6,14 @@ import candela.math.Vec3
 /** Normals of the vertices of meshes that have none. */
 object VertexNormals:
 
+  /** The sums of [[ofCorners]] at each vertex, of any length. */
+  def ofVertices(points: Array[Float], indices: Array[Int]): Array[Float] =
+    val sums = new Array[Float](points.length)
+    val weighted = ofCorners(points, indices)
+    loop(indices.length): c =>
+      loop(3)(k => sums(3 * indices(c) + k) += weighted(3 * c + k))
+    sums
+
   /** Normals of the triangles times their angles, at each corner: their sums over the corners of a
     * vertex are smooth.
     *

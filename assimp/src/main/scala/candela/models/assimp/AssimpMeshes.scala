@@ -1,6 +1,7 @@
 package candela.models.assimp
 
 import candela.base.loop
+import candela.build.shapes.VertexNormals
 import candela.diagnostics.Code
 import candela.math.Vec3
 import candela.models.{MeshFormat, Session}
@@ -8,7 +9,6 @@ import candela.models.{MeshFormat, Session}
 import org.lwjgl.assimp.*
 
 import scala.collection.mutable
-import scala.jdk.CollectionConverters.*
 
 /** Meshes of Assimp as those of glTF. */
 private[assimp] final class AssimpMeshes(
@@ -76,7 +76,9 @@ private[assimp] final class AssimpMeshes(
         "material" -> mesh.mMaterialIndex,
         "indices" -> arrays.ints("SCALAR", 3 * mesh.mNumFaces, corners(mesh))
       )
-      val targets = Arrays.all(mesh.mAnimMeshes)(AIAnimMesh.create).map(target(mesh, _))
+      lazy val restNormals = normals(mesh, mesh.mVertices)
+      val targets =
+        Arrays.all(mesh.mAnimMeshes)(AIAnimMesh.create).map(target(mesh, restNormals, _))
       if targets.nonEmpty then entry("targets") = ujson.Arr.from(targets)
       Some(entry)
 
@@ -110,23 +112,22 @@ private[assimp] final class AssimpMeshes(
     attributes("JOINTS_0") = arrays.ints("VEC4", mesh.mNumVertices, joints.iterator)
     attributes("WEIGHTS_0") = arrays.floats("VEC4", mesh.mNumVertices, weights.iterator)
 
-  /** Normals of a mesh with its vertices at other positions: the means of its triangles' ones. */
+  /** Unit normals of a mesh with its vertices at these positions; 0 where there is none. */
   private def normals(mesh: AIMesh, positions: AIVector3D.Buffer): Array[Float] =
-    def point(i: Int) =
-      val p = positions.get(i)
-      Vec3(p.x, p.y, p.z)
-    val sums = Array.fill(positions.remaining)(Vec3.Zero)
-    for face <- mesh.mFaces.iterator.asScala if face.mNumIndices == 3 do
-      val corners = Vector.tabulate(3)(face.mIndices.get(_))
-      val Vector(a, b, c) = corners.map(point): @unchecked
-      val normal = (b - a) cross (c - a)
-      for i <- corners do sums(i) = sums(i) + normal
-    sums.flatMap: n =>
-      val length = n.length
-      if length > 0f then Array(n.x / length, n.y / length, n.z / length) else new Array[Float](3)
+    val points = Array.tabulate(3 * positions.remaining): k =>
+      val p = positions.get(k / 3)
+      if k % 3 == 0 then p.x else if k % 3 == 1 then p.y else p.z
+    val sums = VertexNormals.ofVertices(points, corners(mesh).toArray)
+    loop(sums.length / 3): i =>
+      val length = Vec3(sums(3 * i), sums(3 * i + 1), sums(3 * i + 2)).length
+      if length > 0f then loop(3)(k => sums(3 * i + k) /= length)
+    sums
 
-  /** Assimp has the morphed vertices, glTF what they differ by. */
-  private def target(mesh: AIMesh, morphed: AIAnimMesh): ujson.Obj =
+  /** Assimp has the morphed vertices, glTF what they differ by.
+    *
+    * @param restNormals unit normals of the mesh as it is
+    */
+  private def target(mesh: AIMesh, restNormals: => Array[Float], morphed: AIAnimMesh): ujson.Obj =
     def difference(all: AIVector3D.Buffer | Null, from: AIVector3D.Buffer | Null) =
       for
         a <- Option(all)
@@ -145,7 +146,7 @@ private[assimp] final class AssimpMeshes(
       for
         positions <- Option(morphed.mVertices)
         if moves.isDefined && mesh.mNormals != null
-      yield normals(mesh, positions).zip(normals(mesh, mesh.mVertices)).map(_ - _)
+      yield normals(mesh, positions).zip(restNormals).map(_ - _)
     val turns = written.orElse(computed)
     def array(values: Array[Float]) =
       ujson.Num(arrays.floats("VEC3", values.length / 3, values.iterator))
