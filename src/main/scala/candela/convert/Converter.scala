@@ -42,6 +42,7 @@ object Converter:
       toPly: Option[Int],
       baking: Option[Baking]
   ): Converted =
+    if to == Dialect.V2 && Dialect.ofOthers(scene.dialect) then refuse(scene.dialect)
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general(Code.NoConversion, "v2 has no PLY meshes; remove --to-ply"))
     val isOfOthers = Dialect.ofOthers(scene.dialect)
@@ -154,9 +155,11 @@ object Converter:
     case (Dialect.V2, Dialect.V4) => Vector(FromV2.pass, ToV4View.pass)
     case (Dialect.V3, Dialect.V4) => Vector(ToV4View.pass)
     case (Dialect.V4, Dialect.V3) => Vector(ToV3View.pass)
-    case _ =>
-      val message = s"can't convert a ${from.toString.toLowerCase} scene to v2"
-      throw SceneError(Problem.general(Code.NoConversion, message, Some("use --to v3")))
+    case _ => refuse(from)
+
+  private def refuse(from: Dialect): Nothing =
+    val message = s"can't convert a ${from.toString.toLowerCase} scene to v2"
+    throw SceneError(Problem.general(Code.NoConversion, message, Some("use --to v3")))
 
 /** Traverses the declarations of a description. */
 object Declarations:

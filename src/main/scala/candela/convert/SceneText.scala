@@ -19,6 +19,9 @@ final class SceneText private (out: Writer, scene: SceneDescription):
   /** The exterior medium outside all blocks is the camera's; blocks override it. */
   private val outside = scene.cameraMedium
 
+  /** pbrt-v4 must know the camera's medium before the world begins. */
+  private val (early, late) = scene.media.partition(m => isV4 && m.name == outside)
+
   private def write(): Unit =
     options()
     blank()
@@ -58,6 +61,10 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       )
       declaration <- d
     do text.declaration(directive, declaration)
+    // There are no blocks before the world, which would end `Attribute`
+    for m <- early do
+      text.transform(m.mediumToWorld)
+      medium(m.copy(medium = m.medium.copy(params = m.medium.params.map(_.asOwn))))
 
   /** `Option` has no type before its name. */
   private def option(p: Param): Unit =
@@ -98,11 +105,14 @@ final class SceneText private (out: Writer, scene: SceneDescription):
         text.declaration("MakeNamedMaterial", Vector(name), typed(m))
 
   private def media(): Unit =
-    if scene.media.nonEmpty then blank()
-    for m <- scene.media do
+    if late.nonEmpty then blank()
+    for m <- late do
       placed(m.mediumToWorld, hasDefaults(m.medium)):
         text.defaults("medium", m.medium)
-        text.declaration("MakeNamedMedium", Vector(m.name), typed(m.medium))
+        medium(m)
+
+  private def medium(m: MediumDescription): Unit =
+    text.declaration("MakeNamedMedium", Vector(m.name), typed(m.medium))
 
   /** The declaration with its class as a parameter. */
   private def typed(d: Declaration): Declaration =

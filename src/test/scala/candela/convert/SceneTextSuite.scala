@@ -43,6 +43,21 @@ class SceneTextSuite extends AnyFunSuite:
       )
       assertRoundTrip(scene, Some(dialect))
 
+  test("v4 defines the medium around the camera behind the camera and before the world"):
+    for dialect <- Vector(Dialect.V3, Dialect.V4) do
+      val scene = parse(
+        """MediumInterface "" "fog" LookAt 0 0 5 0 0 0 0 1 0 Camera "perspective"
+          |WorldBegin Translate 1 0 0 MakeNamedMedium "fog" "string type" "homogeneous"
+          |MakeNamedMedium "smoke" "string type" "homogeneous"
+          |""".stripMargin + (if dialect == Dialect.V4 then "" else "WorldEnd"),
+        dialect
+      )
+      assertRoundTrip(scene, Some(dialect))
+      val statements = Descriptions.text(scene).linesIterator.map(_.trim.takeWhile(_ != ' '))
+      assert(statements.filter(s => s.startsWith("Make") || s == "WorldBegin").toVector ==
+        Vector("MakeNamedMedium", "WorldBegin", "MakeNamedMedium")
+          .sortBy(s => dialect == Dialect.V3 && s.startsWith("Make")))
+
   test("what only v4 knows survives: options, attributes, color spaces"):
     assertRoundTrip(
       parse(
