@@ -54,11 +54,7 @@ final class FrontMask(inner: Mask) extends Mask:
 object StochasticMask:
   /** Uniform in [0, 1) over rays and primitives. */
   private def threshold(ray: Ray, primitive: Int): Float =
-    def bits(x: Float) = java.lang.Float.floatToRawIntBits(x) & 0xffffffffL
-    var h = SampleHash.mix64(bits(ray.ox) << 32 | bits(ray.oy))
-    h = SampleHash.mix64(h ^ (bits(ray.oz) << 32 | bits(ray.dx)))
-    h = SampleHash.mix64(h ^ (bits(ray.dy) << 32 | bits(ray.dz)))
-    h = SampleHash.mix64(h + primitive * SampleHash.Step)
+    val h = SampleHash.mix64(SampleHash.ofRay(ray) + primitive * SampleHash.Step)
     SampleHash.toUnit((h >>> 32).toInt)
 
 /** The masks of a set of primitives; [[SolidMask]] if opaque.

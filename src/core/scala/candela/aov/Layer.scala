@@ -162,7 +162,7 @@ enum Layer(
       extends Layer(
         "alpha",
         Vector("A"),
-        "coverage by surfaces; in Mitsuba's scenes, a visible sky covers all",
+        "coverage by surfaces and media; in Mitsuba's scenes, a visible sky covers all",
         MeanOfAll(Tally.always(numbers(_.coverage)))
       )
 

@@ -16,6 +16,7 @@ import candela.scene.{Scene, SurfaceNames}
   * @param hidesEmitters whether the camera sees through emitters
   * @param skyCovers     whether samples of the sky count as covered
   * @param firstHit      what the ray meets first, if a layer asks for it
+  * @param media         that cover what is behind them, if there are any
   */
 final class VisibleSurface(
     val scene: Scene,
@@ -25,7 +26,8 @@ final class VisibleSurface(
     motionOnFilm: Option[ScreenMotion] = None,
     hidesEmitters: Boolean = false,
     skyCovers: Boolean = false,
-    firstHit: Option[FirstHit] = None
+    firstHit: Option[FirstHit] = None,
+    media: Option[MediaTransmittance] = None
 ):
   private val ray = Ray()
   private val map = new Array[Double](Motion.Work)
@@ -35,6 +37,7 @@ final class VisibleSurface(
   private var distance = 0f
   private var sample = 0
   private val ownFirst: FirstHit | Null = firstHit.map(_.copy()).orNull
+  private val ownMedia: MediaTransmittance | Null = media.map(_.copy()).orNull
   private val moved: ScreenMotion | Null = motionOnFilm.map(_.copy()).orNull
 
   // What is seen through specular surfaces; traced once per camera ray, when asked for
@@ -52,7 +55,9 @@ final class VisibleSurface(
   val point: ShadingPoint = scene.newPoint(always = true)
 
   def copy(): VisibleSurface =
-    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers, firstHit)
+    VisibleSurface(
+      scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers, firstHit, media
+    )
 
   /** Traces a camera ray through interfaces; leaves the ray unchanged.
     *
@@ -64,10 +69,18 @@ final class VisibleSurface(
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
-    isHit = scene.closestBehindInterfaces(ray, hit, point)
-    while isHit && hidesEmitters && point.areaLight >= 0 do
-      scene.passThrough(ray, point)
-      isHit = scene.closestBehindInterfaces(ray, hit, point)
+    val media = ownMedia
+    if media != null then media.start(ray, sample)
+    var goesOn = true
+    while goesOn do
+      isHit = scene.closest(ray, hit)
+      if isHit then scene.surface(ray, hit, point)
+      goesOn = isHit &&
+        (scene.isPassed(ray, hit, point) || hidesEmitters && point.areaLight >= 0)
+      if media != null then
+        media.pass(ray)
+        if goesOn then media.cross(point, ray.direction)
+      if goesOn then scene.passThrough(ray, point)
     if isHit then record(from, scene.bsdf(point))
 
   /** Records the hit in `at`. */
@@ -82,8 +95,10 @@ final class VisibleSurface(
   /** False if the ray missed; all other properties are then stale. */
   def isThere: Boolean = isHit
 
-  /** 1 or 0, also of a ray that missed. */
-  def coverage: Float = if isHit || skyCovers then 1f else 0f
+  /** From 0 to 1 in the mean, also of a ray that missed. */
+  def coverage: Float =
+    val media = ownMedia
+    if isHit || skyCovers then 1f else if media == null then 0f else 1f - media.mean
 
   /** What the ray meets first; exists if a layer asks for it. */
   def first: FirstHit = ownFirst.nn

@@ -206,7 +206,8 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
       scene.hidesEmitters,
       skyCovers = context.rules.skyCovers && !scene.hidesEmitters && !hidesSky &&
         world.scene.environments.nonEmpty,
-      first
+      first,
+      world.transmittance
     )
     val groups = world.method.strategies.map(_.groups)
       .orElse(world.scene.lightGroups.filter(_ => world.method.dividesLight))

@@ -4,7 +4,7 @@ import candela.diagnostics.{Code, SourcePos}
 import scala.collection.IndexedSeqView
 
 import candela.accel.{Accelerator, Instances, Primitives}
-import candela.aov.Cryptomatte
+import candela.aov.{Cryptomatte, MediaTransmittance}
 import candela.build.integrators.{IntegratorPlan, Surroundings}
 import candela.build.lights.{LightPlan, Lights, SkySampling}
 import candela.build.options.{AcceleratorPlan, Accelerators, BvhRecipe}
@@ -26,6 +26,8 @@ private[build] final class LitScene(
     lightSamples: Array[Int]
 ):
   val method: RenderMethod = plan.methodIn(around, scene, lightSamples)
+
+  def transmittance: Option[MediaTransmittance] = around.transmittance(scene)
 
   def seenFrom(eye: Vec3, footprints: => Footprints): LitScene =
     LitScene(plan, scene.withFootprints(footprints), around.seenFrom(eye), lightSamples)
@@ -52,6 +54,8 @@ private[build] final class World(
   val method: RenderMethod =
     if bases.isEmpty then plain.method
     else RenderMethod.spectral(color.bases.zip(bases.map(_.method)))
+
+  def transmittance: Option[MediaTransmittance] = plain.transmittance
 
   def sight: Sight = Sight(scene, objectPlaces, cameraPlace)
 

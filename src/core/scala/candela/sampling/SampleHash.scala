@@ -1,5 +1,7 @@
 package candela.sampling
 
+import candela.geometry.Ray
+
 /** Hash functions for samplers: map (pixel, sample, dimension, seed) to numbers that look
   * independent.
   *
@@ -34,6 +36,13 @@ object SampleHash:
   def pixel(x: Int, y: Int, seed: Int): Long =
     mix64((x.toLong << 32 | (y & 0xffffffffL)) ^ mix64(seed + Step))
 
+  /** Of a ray's origin and direction. */
+  def ofRay(ray: Ray): Long =
+    def bits(x: Float) = java.lang.Float.floatToRawIntBits(x) & 0xffffffffL
+    var h = mix64(bits(ray.ox) << 32 | bits(ray.oy))
+    h = mix64(h ^ (bits(ray.oz) << 32 | bits(ray.dx)))
+    mix64(h ^ (bits(ray.dy) << 32 | bits(ray.dz)))
+
   /** The upper 24 bits as a fraction: in [0, 1), and a multiple of 2⁻²⁴. */
   def toUnit(bits: Int): Float = (bits >>> 8) * 5.9604645e-8f
 
@@ -47,7 +56,9 @@ final class RandomStream:
   /** Restarts the stream; different seeds give different streams. */
   def seed(a: Float, b: Float): Unit =
     def bits(x: Float) = java.lang.Float.floatToRawIntBits(x) & 0xffffffffL
-    counter = SampleHash.mix64(bits(a) << 32 | bits(b))
+    seed(bits(a) << 32 | bits(b))
+
+  def seed(key: Long): Unit = counter = SampleHash.mix64(key)
 
   /** In [0, 1). */
   def next(): Float =

@@ -1,7 +1,7 @@
 package candela.build.integrators
 
 import candela.diagnostics.Code
-import candela.aov.ImageLayer
+import candela.aov.{ImageLayer, MediaTransmittance}
 import candela.bsdf.Material
 import candela.build.recipe.*
 import candela.film.PixelBounds
@@ -107,6 +107,11 @@ enum Surroundings:
 
   /** The volumes of pbrt-v2, and what marches through them for a worker. */
   case Volumes(march: Scene => VolumeMarch)
+
+  /** Its estimate of what media leave of light, if there are any. */
+  def transmittance(scene: Scene): Option[MediaTransmittance] = this match
+    case Media(all) => Some(MediaTransmittance(scene, all))
+    case _ => None
 
   /** The same around a camera elsewhere. */
   def seenFrom(eye: Vec3): Surroundings = this match
