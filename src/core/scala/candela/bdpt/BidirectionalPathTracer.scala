@@ -205,7 +205,7 @@ final class BidirectionalPathTracer(
     if media != null && collision >= 0f then media.scatter(vertex, ray, collision)
     else vertex.hit(ray, hit)
     if media == null then true
-    else if !vertex.isInMedium && vertex.isInterface then
+    else if !vertex.isInMedium && scene.isPassed(ray, hit, vertex.point) then
       media.passThrough(vertex, ray)
       false
     else

@@ -150,9 +150,16 @@ private[build] final class SurfaceBuilder(
   ):
     private val isReversed = dressed.shape.reverseOrientation
     private val (mask, veil) =
-      if integrator.hasVeils then plan.mask.veiled else (plan.mask, SolidMask)
+      if integrator.hasVeils || isBorder then plan.mask.veiled else (plan.mask, SolidMask)
     private val holes = if veil eq SolidMask then plan.holes else EmitterHoles.Ignored
     if isShadowing then shadowing = shadowing.orElse(Some(dressed.declared))
+
+    /** Are openings of the mask borders of media, too? In pbrt there is no surface there, and those
+      * of emitters do not emit.
+      */
+    private def isBorder: Boolean =
+      val border = materials.borders(dressed.material)
+      border.inside != border.outside && emitter.isEmpty && Dialect.ofOthers(context.rules.dialect)
 
     /** Does the surface stop light samples, though paths pass it? */
     private def isShadowing: Boolean = integrator.interfaces.stopsLight &&

@@ -17,7 +17,7 @@ private[candela] final class MediumVisibility(
     work: MediumWork,
     crossesPanes: Boolean = false
 ):
-  private val isCrossed = scene.hasInterfaces || crossesPanes
+  private val isCrossed = scene.hasInterfaces || scene.hasVeils || crossesPanes
   private val ray = Ray()
   private val hit = Hit()
   private val border = ShadingPoint()
@@ -74,7 +74,7 @@ private[candela] final class MediumVisibility(
       ray,
       hit,
       border,
-      opens = scene.isInterface(border) || crossesPanes && isPane,
+      opens = scene.isPassed(ray, hit, border) || crossesPanes && isPane,
       crossed = direction =>
         rays += 1
         medium = media.beyond(border, direction, medium)

@@ -103,7 +103,8 @@ final class Scene(
 
   private val interfaces = materials.interfaces
 
-  private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
+  /** Whether paths pass openings of surfaces as if these were interfaces. */
+  val hasVeils: Boolean = !surfaces.veils.isEmpty || instanced.hasVeils
 
   /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
   def isPassed(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
