@@ -14,6 +14,11 @@ final case class Bounds3(min: Vec3, max: Vec3):
   def extent: Vec3 = max - min
   def center: Vec3 = (min + max) * 0.5f
 
+  /** With its faces moved outwards. */
+  def grown(by: Float): Bounds3 =
+    val d = Vec3(by, by, by)
+    Bounds3(min - d, max + d)
+
   /** Radius of the sphere around `center` through the corners. */
   def radius: Float = if isEmpty then 0f else (max - center).length
 

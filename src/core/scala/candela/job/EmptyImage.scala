@@ -98,6 +98,7 @@ object EmptyImage:
       ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.rays > 0).fold("no sample has light"):
         seen =>
           if seen.hitsNothing then Past
+          else if seen.hitsMediaOnly then "no light comes through the media that the camera sees"
           else s"no light comes from the surfaces that the camera sees: ${nearest(seen)}"
 
   private def nearest(seen: FirstSurfaces): String =

@@ -20,16 +20,19 @@ final case class Sight(
   *
   * @param rays      number of rays
   * @param hits      number of those that meet a surface
+  * @param borders   number of the others, that pass interfaces, such as borders of media
   * @param distance  to the nearest surface
   * @param statement of the nearest surface
   */
 final case class FirstSurfaces(
     rays: Int,
     hits: Int,
+    borders: Int,
     distance: Float,
     statement: Option[SourcePos]
 ):
-  def hitsNothing: Boolean = hits == 0
+  def hitsNothing: Boolean = hits + borders == 0
+  def hitsMediaOnly: Boolean = hits == 0 && borders > 0
   def isAround: Boolean = rays > 0 && hits == rays
 
 /** Looks through the pixels of a plan's image, before or after it is rendered. */
@@ -88,7 +91,7 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
     * @param set sets the ray of a number; false: there is none
     */
   private def survey(count: Int)(set: Int => Boolean): FirstSurfaces =
-    var rays, hits = 0
+    var rays, hits, borders = 0
     var distance = Float.PositiveInfinity
     var nearest = -1
     for i <- 0 until count if set(i) do
@@ -100,7 +103,14 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
         if d < distance then
           distance = d
           nearest = sight.scene.objectIndex(hit)
-    FirstSurfaces(rays, hits, distance, if nearest < 0 then None else sight.statement(nearest))
+      else if ray.origin != origin then borders += 1
+    FirstSurfaces(
+      rays,
+      hits,
+      borders,
+      distance,
+      if nearest < 0 then None else sight.statement(nearest)
+    )
 
 object ViewSurvey:
   private val GridSize = 16

@@ -70,17 +70,6 @@ class MediaSuite extends AnyFunSuite, GltfModels:
       assert((normal dot (f(0) - Vec3(1, 0.5f, 0.5f))) > 0.4f)
     assert(s.integrator.get.name == "volpath" && s.cameraMedium.isEmpty)
 
-  test("a camera within the box is in its medium"):
-    val around = read(scene(node(Grid, ""","translation":[-1,0,-1],"scale":[4,2,9]""")))
-    assert(around.cameraMedium == around.media.head.name)
-
-  test("boxes that overlap are a warning"):
-    def warnings(x: Double) =
-      read(scene(node(Grid), node(Grid, s""","translation":[$x,0.5,0]"""))).warnings
-    assert(warnings(2.1).isEmpty)
-    val Vector(w) = warnings(1.9): @unchecked
-    assert(w.pos.get.file.endsWith("#/nodes/3") && w.message.contains("overlap"))
-
   test("what is no box, no file or unknown is an error or a warning with its pointer"):
     val path = "/nodes/2/extras/candela/medium"
     def failed(medium: String) = error(scene(node(medium)))
@@ -152,6 +141,7 @@ class MediaSuite extends AnyFunSuite, GltfModels:
 
   test("a medium that absorbs nothing emits nothing"):
     val s = inside(""""scattering":[1,1,1],"absorption":[1,0,1],"emission":[1,1,0]""")
-    val Vector(w) = s.warnings: @unchecked
-    assert(w.pos.get.file.endsWith("/materials/0/extras/candela/medium/emission"))
+    assert(
+      s.warnings.exists(_.pos.get.file.endsWith("/materials/0/extras/candela/medium/emission"))
+    )
     assert(numbers(s.media.head.medium, "Le") == Vector(1f, 0f, 0f))

@@ -52,12 +52,13 @@ private[models] final class Extras private (
   def color(name: String, default: Rgb): Rgb = entry(name).fold(default): member =>
     val c = member.numbers(3)
     if c.exists(_ < 0) then
-      val message = s"`$name` must be at least 0, found ${all(c)}; using 0"
+      val message =
+        s"`$name` must be at least 0, found ${all(c)}; using ${all(c.map(Math.max(0, _)))}"
       session.warn(member.at, message, Code.CorrectedValue)
     val Vector(r, g, b) = c.map(x => Math.max(0, x).toFloat): @unchecked
     Rgb(r, g, b)
 
-  private def all(numbers: Vector[Double]): String = numbers.map(Json.numberText).mkString(" and ")
+  private def all(numbers: Vector[Double]): String = numbers.map(Json.numberText).mkString(" ")
 
   /** True unless it says otherwise. */
   def isInView: Boolean = entry("inView").forall(_.flag)

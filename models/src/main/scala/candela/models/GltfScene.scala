@@ -1,7 +1,7 @@
 package candela.models
 
 import candela.diagnostics.Code
-import candela.math.{Transform, Vec3}
+import candela.math.Transform
 import candela.scenefile.{
   Dialect, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, SceneDescription, ShapeDescription
@@ -34,8 +34,9 @@ private[models] object GltfScene:
     val framed = Option.when(times.isDefined && world > 0)(reader(0).result(sensor))
     val isWhole = current.environment.isDefined
     val complete = Studio.complete(model, session, reading.model, world, isWhole, framed)
-    val scene = times.fold(complete): t =>
-      View.numbered(complete, session, world).copy(isFollowed = world + 1 < t.count)
+    val placed = Interiors(complete, session).result
+    val scene = times.fold(placed): t =>
+      View.numbered(placed, session, world).copy(isFollowed = world + 1 < t.count)
     session.finished(scene)
 
   /** Those that are read. */
@@ -84,7 +85,10 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       session.attempt(lights(p)).flatten.foreach:
         case light: LightDescription => lit += light
         case shape: ShapeDescription => shapes += shape
-      session.attempt(media(p)).flatten.foreach(shapes += _)
+      session.attempt:
+        if p.node("extras").isDefined then
+          val transforms = severalTransforms(p).getOrElse(Vector(p.toWorld))
+          transforms.flatMap(t => media(p.copy(toWorld = t))).foreach(shapes += _)
     environment.foreach(e => session.attempt(lights.surroundings(e)).flatten.foreach(lit += _))
     val scene = SceneDescription(
       Dialect.Gltf,
@@ -108,8 +112,7 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       .flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c))).getOrElse(scene)
     val isOneOfSeveral = sensor.nonEmpty && cameras.size > 1
     val named = if isOneOfSeveral then View.numbered(framed, session, index) else framed
-    val eye = named.worldToCamera.start.inverse.point(Vec3.Zero)
-    named.copy(isFollowed = index + 1 < cameras.size, cameraMedium = media.mediumAt(eye))
+    named.copy(isFollowed = index + 1 < cameras.size)
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))
@@ -131,7 +134,7 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
 
   private def addShapes(p: PlacedNode, isShared: Boolean): Unit =
     val skin = p.node.element("skin", skins, "skins").map(jointsOf)
-    val instanceTransforms = p.node.extension("EXT_mesh_gpu_instancing").map(several(p, _))
+    val instanceTransforms = severalTransforms(p)
     // Skinned vertices are in world space
     val transforms =
       instanceTransforms.getOrElse(Vector(if skin.isEmpty then p.toWorld else Transform.Identity))
@@ -194,6 +197,9 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       inverses.fold(toWorld): all =>
         toWorld * Transform.fromColumns(all(i).map(_.toDouble).toIndexedSeq)
           .getOrElse(Transform.Identity))
+
+  private def severalTransforms(p: PlacedNode): Option[Vector[Transform]] =
+    p.node.extension("EXT_mesh_gpu_instancing").map(several(p, _))
 
   private def several(p: PlacedNode, instancing: Json): Vector[Transform] =
     val attributes = instancing.required("attributes")

@@ -61,6 +61,8 @@ private[models] final class Materials(
     val medium = media.extras(entry)
     val inside = medium.map(media.inside)
     if medium.exists(_("surface").exists(!_.flag)) then
+      for e <- entry("emissiveFactor") if emission(entry).isDefined do
+        session.warn(e.at, "a material without a surface emits nothing")
       val interface = session.declare("Material", "interface", entry.at, Nil)
       Surface(MaterialRef.Inline(interface), Vector.empty, None, inside.getOrElse(""))
     else if entry.extension("KHR_materials_unlit").isDefined then unlit(entry, hasColors)
@@ -96,7 +98,10 @@ private[models] final class Materials(
     // What is behind a volume's boundary matters
     val sides = if isFilled then None else culling(entry)
     val interior = inside.orElse(volume.map(media.absorbing)).getOrElse("")
-    Surface(name(entry, d), alpha ++ sides, emission(entry), interior)
+    val emitted = emission(entry)
+    if emitted.isDefined && alpha.nonEmpty && interior.nonEmpty then
+      session.warn(entry.at, "where its alpha lets paths through, they do not enter its medium")
+    Surface(name(entry, d), alpha ++ sides, emitted, interior)
 
   private def culling(entry: Json): Option[Param] =
     Option.unless(entry.flag("doubleSided"))(Param.bool("cullbackfaces", entry.at, true))

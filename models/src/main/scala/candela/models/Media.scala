@@ -8,17 +8,12 @@ import candela.scenefile.{
   Declaration, GraphicsState, MaterialRef, MediumDescription, Param, ParamType, ShapeDescription
 }
 
-import scala.collection.mutable
-
 /** Translates participating media, which fill the meshes of a material or the box of a grid. */
 private[models] final class Media(file: GltfFile, session: Session):
   private val named = Vector.newBuilder[MediumDescription]
   private var count = 0
-  private val boxes = mutable.ArrayBuffer.empty[Media.Box]
 
-  def result(): Vector[MediumDescription] =
-    warnOfOverlaps()
-    named.result()
+  def result(): Vector[MediumDescription] = named.result()
 
   /** @return its name */
   private def add(medium: Declaration, toWorld: Transform): String =
@@ -87,7 +82,6 @@ private[models] final class Media(file: GltfFile, session: Session):
       val medium = session.declare("Medium", "nanovdb", at, members ++ coefficients(e))
       val corners = bounds(e)
       val name = add(medium, p.toWorld)
-      boxes += Media.Box(name, corners, p)
       ShapeDescription(
         session.declare("Shape", "trianglemesh", at, mesh(corners, at)),
         GraphicsState.constant(p.toWorld),
@@ -111,20 +105,6 @@ private[models] final class Media(file: GltfFile, session: Session):
       box.fail(s"expected the lowest corner and the highest, found ${n.mkString(" ")}")
     Bounds3(Vec3(n(0), n(1), n(2)), Vec3(n(3), n(4), n(5)))
 
-  /** The medium of a box around a place; empty: none. */
-  def mediumAt(p: Vec3): String = boxes.find(_.contains(p)).fold("")(_.medium)
-
-  private def warnOfOverlaps(): Unit =
-    val sorted = boxes.sortBy(_.inWorld.min.x).toVector
-    val overlapping = sorted.indices.iterator.flatMap: i =>
-      sorted.iterator.drop(i + 1).takeWhile(_.inWorld.min.x < sorted(i).inWorld.max.x)
-        .find(_.overlaps(sorted(i)))
-    for box <- overlapping.nextOption() do
-      session.warn(
-        box.node.node.at,
-        "the boxes of two media overlap; there, only one of them is seen"
-      )
-
 private[models] object Media:
   private val Coefficients = Vector("absorption", "scattering", "anisotropy")
   private val MaxAnisotropy = 0.99
@@ -132,16 +112,3 @@ private[models] object Media:
   /** Triangles of [[Bounds3.corner]]s that face outwards. */
   private val Faces = Vector(0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5,
     0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3)
-
-  private final class Box(val medium: String, box: Bounds3, val node: PlacedNode):
-    val inWorld: Bounds3 = box.mapped(node.toWorld.point)
-
-    def contains(p: Vec3): Boolean =
-      val local = node.toWorld.inverse.point(p)
-      Bounds3.of(Vector(box.min, box.max, local)) == box
-
-    def overlaps(b: Box): Boolean =
-      val (low, high) = (inWorld, b.inWorld)
-      low.min.x < high.max.x && low.max.x > high.min.x &&
-      low.min.y < high.max.y && low.max.y > high.min.y &&
-      low.min.z < high.max.z && low.max.z > high.min.z
