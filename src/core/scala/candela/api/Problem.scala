@@ -34,10 +34,11 @@ final class Problem private[api] (core: candela.diagnostics.Problem):
   /** The text of the line, if it is known. */
   def excerpt: Optional[String] = core.excerpt.toJava
 
-  /** On one line: `scene.pbrt:3:7: error: unknown material "matt"; did you mean "matte"?` */
+  /** On one line: `a.pbrt:3:7: error: unknown shape "spher"; did you mean "sphere"? [E0401]`. */
   override def toString: String =
     val prefix = pos.fold("")(p => s"$p: ")
-    s"$prefix${severity.toString.toLowerCase}: $message${core.help.fold("")(h => s"; $h")}"
+    val cure = core.help.fold("")(h => s"; $h")
+    s"$prefix${severity.toString.toLowerCase}: $message$cure [$number]"
 
 /** A scene that can't be rendered, or an invalid setting. Its message is that of the first error,
   * with its number, and says how many others there are. [[Candela.read]] and [[Scene.check]] return

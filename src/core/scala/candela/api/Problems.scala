@@ -1,7 +1,9 @@
 package candela.api
 
+import candela.base.JavaHeap
 import candela.diagnostics.{Code, SceneError}
 import candela.image.{ImageError, MissingNatives}
+import candela.render.Costs
 
 import java.nio.file.{FileSystems, Path}
 import java.util.concurrent.CancellationException
@@ -20,9 +22,9 @@ private[api] object Problems:
     val (all, noun) = if errors.nonEmpty then (errors, "error") else (warnings, "warning")
     val first = Problem(all.head)
     all.size - 1 match
-      case 0 => s"$first [${first.number}]"
-      case 1 => s"$first [${first.number}], and 1 more $noun"
-      case more => s"$first [${first.number}], and $more more ${noun}s"
+      case 0 => first.toString
+      case 1 => s"$first, and 1 more $noun"
+      case more => s"$first, and $more more ${noun}s"
 
   /** Runs `body` and turns its errors into a [[SceneException]]. */
   def thrown[A](body: => A): A =
@@ -31,6 +33,8 @@ private[api] object Problems:
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
+      case _: OutOfMemoryError =>
+        throw SceneException(Vector(Costs(Vector.empty).problem(JavaHeap.limit, None)))
 
   /** Runs `body`, unless its thread is interrupted, which remains so.
     *

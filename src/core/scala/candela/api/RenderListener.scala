@@ -22,10 +22,10 @@ trait RenderListener:
   /** Called about ten times a second, and at the end. */
   def progressed(progress: Progress): Unit = ()
 
-  /** Whether [[passed]] is called; all workers pause meanwhile. */
+  /** Whether [[passed]] is called; all workers pause meanwhile. False unless overridden. */
   def wantsPasses: Boolean = false
 
-  /** Called after 1, 2, 4, 8, … samples per pixel, and at the end. */
+  /** Called after 1, 2, 4, 8, … samples per pixel, and at the end, if [[wantsPasses]] is true. */
   def passed(pass: Pass): Unit = ()
 
 private[api] object RenderListeners:

@@ -91,7 +91,10 @@ final class Scene private[api] (
       ready.warnings
     catch case e: SceneException => e.coreProblems
 
-  /** Starts an edited copy of this scene. */
+  /** Starts an edited copy of this scene.
+    *
+    * @throws SceneException if the scene could not be read
+    */
   def edit(): SceneBuilder =
     val base = readable
     SceneBuilder(name, base.folder, Some(this))

@@ -123,17 +123,28 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   // Blocks
 
-  /** Restores materials, transforms and all other state after `body`. */
+  /** Restores materials, transforms and all other state after `body`.
+    *
+    * @throws java.lang.IllegalArgumentException if `body` returns another builder
+    */
   def attributes(body: UnaryOperator[SceneBuilder]): SceneBuilder =
     plain("AttributeBegin")
-    body(this): Unit
+    continued(body)
     plain("AttributeEnd")
 
-  /** Defines an object of the shapes in `body`, for [[instance]]. */
+  /** Defines an object of the shapes in `body`, for [[instance]].
+    *
+    * @throws java.lang.IllegalArgumentException if `body` returns another builder
+    */
   def define(name: String, body: UnaryOperator[SceneBuilder]): SceneBuilder =
     words("ObjectBegin", name)
-    body(this): Unit
+    continued(body)
     plain("ObjectEnd")
+
+  /** What another builder has would be lost. */
+  private def continued(body: UnaryOperator[SceneBuilder]): Unit =
+    if body(this) ne this then
+      throw IllegalArgumentException("the body must return the builder that it is given")
 
   /** Places an object with the current transform. */
   def instance(name: String): SceneBuilder = words("ObjectInstance", name)

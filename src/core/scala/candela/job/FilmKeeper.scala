@@ -161,7 +161,14 @@ object FilmKeeper:
           now.samples > film.header.samples
         val resuming = s"`candela resume $path --spp ${now.samples}` adds samples, " +
           "unless its sampler's points depend on their number; or "
-        val help = if isLonger then resuming + Remove else Remove
+        val hasOtherOptions =
+          now.copy(words = film.header.words).difference(film.header).isEmpty
+        val help =
+          if isLonger then resuming + Remove
+          else if hasOtherOptions then
+            s"its own options continue it, as `candela resume $path` does, also to a goal; or " +
+              Remove
+          else Remove
         fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", help)
       if film.header.shards != now.shards then
         fail(Code.OtherRendering, s"`$path` belongs to another shard: ${film.header.label}", Remove)

@@ -58,7 +58,8 @@ private[job] object ForeignAdvice:
     case MitsubaMesh =>
       Some("load it by <shape type=\"serialized\"> in a Mitsuba scene")
     case Model =>
-      val module = "candela-models on the class path reads glTF, OBJ, PLY and STL; or "
+      val module = "candela-models on the class path, in a fat jar with its META-INF/services, " +
+        "reads glTF, OBJ, PLY and STL; or "
       Some(
         (if readsModels then "" else module) +
           s"export it as a scene of ${SceneFormat.inWords}, for example from Blender"

@@ -21,7 +21,7 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   // How many pieces of an open wave are finished; a wave takes the place of one that is closed.
   private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.openWaves else 0)
   private val closedWaves = AtomicInteger()
-  private val firstFailure = AtomicReference[Option[Throwable]](None)
+  private val firstFailure = AtomicReference[Throwable | Null](null)
   val samplesTaken: LongAdder = LongAdder()
 
   /** Planned samples that pixels do without. */
@@ -48,7 +48,7 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   /** One more than the last sample to take for the moment. */
   def endSample: Int = untilSample
 
-  def isStopped: Boolean = isEnded || cancellation.isRequested || firstFailure.get.isDefined
+  def isStopped: Boolean = isEnded || cancellation.isRequested || firstFailure.get != null
 
   /** Stops the rendering, as a cancellation does. */
   def stop(): Unit = isEnded = true
@@ -80,10 +80,11 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   private[render] def start(workers: Int): Unit = gate.expect(workers)
   private[render] def end(): Unit = gate.exit()
 
-  def failure: Option[Throwable] = firstFailure.get
+  def failure: Option[Throwable] = Option(firstFailure.get).map(_.nn)
 
+  /** Allocates nothing: the heap may be full. */
   def fail(cause: Throwable): Unit =
-    val _ = firstFailure.compareAndSet(None, Some(cause))
+    val _ = firstFailure.compareAndSet(null, cause)
 
   /** Claims the next step; -1 if none is left. */
   def takeStep(): Long =

@@ -245,6 +245,14 @@ class LibrarySuite extends AnyFunSuite:
       val other = LibraryScenes.built(samples = 64).light("infinite", Parameters()).scene()
       val refused = intercept[SceneException](rendered(other, RenderSettings(), control))
       assert(refused.problems.get(0).message.contains("to another rendering"))
+      val goal = RenderSettings().withTime(Duration.ofSeconds(1))
+      val differing = intercept[SceneException](rendered(scene, goal, control)).problems.get(0)
+      assert(differing.message.contains("options none instead of `--sampler progressive"))
+      assert(differing.help.get.startsWith("its own options continue it"))
+
+  test("a full heap is a problem of the scene"):
+    val thrown = intercept[SceneException](Problems.thrown(throw OutOfMemoryError()))
+    assert(thrown.problems.get(0).number == "E0111")
 
   test("problems have severity, message, cure and place, and are values"):
     val scene = Candela.parse(LibraryScenes.text() + "Shape \"spher\" \"float radius\" 1\n")

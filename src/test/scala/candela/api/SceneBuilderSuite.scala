@@ -85,6 +85,11 @@ class SceneBuilderSuite extends AnyFunSuite:
       assert(inCode.forall(_.file.get == "SceneBuilderSuite.scala"), written)
       assert(inCode.forall(_.line > 20) && inFile.forall(_.line == text.linesIterator.size + 1))
 
+  test("a body that returns another builder is refused, since its shapes would be lost"):
+    val lost = LibraryScenes.built().shape("sphere", Parameters())
+    intercept[IllegalArgumentException](LibraryScenes.built().attributes(_ => lost))
+    intercept[IllegalArgumentException](LibraryScenes.built().define("ball", _ => null))
+
   test("numbers that a file can't contain are problems"):
     val found = LibraryScenes.built().translate(Double.NaN, 0, 0)
       .shape("sphere", Parameters().number("radius", Double.PositiveInfinity)).scene()

@@ -139,7 +139,7 @@ class FilmFilesSuite extends AnyFunSuite:
         s"`${f("1.film")}` [E1005]")
       f.render("--shard", "3/4", "--seed", "5", "--outfile", f("seed.film"))
       val seeded = merge(f("0.film"), f("seed.film"))
-      assert(seeded.endsWith("options `--seed 5` instead of `` [E1002]"))
+      assert(seeded.endsWith("options `--seed 5` instead of none [E1002]"))
       f.render("--shard", "3/5", "--outfile", f("five.film"))
       val foreign = merge(f("0.film"), f("five.film"))
       assert(foreign.endsWith("number of shards 5 instead of 4 [E1002]"))
@@ -194,7 +194,7 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(f.bytes("a.exr") == image)
       val other =
         f.fail(Vector(f.scene, "--seed", "1", "--checkpoint", f("a.film"), "--outfile", f("a.exr")))
-      assert(other.contains("belongs to another rendering: options `` instead of `--seed 1`"))
+      assert(other.contains("belongs to another rendering: options none instead of `--seed 1`"))
 
   test("a scene that has changed is refused, by the name of the file"):
     withScene(): f =>

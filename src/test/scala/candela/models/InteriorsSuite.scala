@@ -21,7 +21,9 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
       0 to 1;
     y <-
       0 to 1;
-    z <- 0 to 1; c <- Vector(x, y, z)
+    z <-
+      0 to 1;
+    c <- Vector(x, y, z)
   yield c.toDouble)*)
   private val faces = Vector(0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6,
     0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3)

@@ -65,13 +65,15 @@ final case class FilmHeader(
     * samples done may differ.
     */
   def difference(other: FilmHeader): Option[String] =
+    def quoted(words: Vector[String]) =
+      if words.isEmpty then "none" else words.mkString("`", " ", "`")
     def differ(what: String, mine: Any, others: Any) =
       Option.when(mine != others)(s"$what $others instead of $mine")
     val changed = files.toMap.keySet ++ other.files.toMap.keySet
     val file = changed.toVector.sorted.find(f => files.toMap.get(f) != other.files.toMap.get(f))
     differ("version", version, other.version)
       .orElse(file.map(f => s"`$f` differs"))
-      .orElse(differ("options", s"`${words.mkString(" ")}`", s"`${other.words.mkString(" ")}`"))
+      .orElse(differ("options", quoted(words), quoted(other.words)))
       .orElse(differ("size", size, other.size))
       .orElse(differ("samples per pixel", samples, other.samples))
       .orElse(differ("number of shards", count, other.count))
