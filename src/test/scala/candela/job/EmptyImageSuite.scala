@@ -73,6 +73,18 @@ class EmptyImageSuite extends AnyFunSuite:
     assert(!rendered.contains(Foreseen), rendered)
     assert(rendered.contains("the nearest is at distance 3"), rendered)
 
+  test("media that no light leaves are not looked past"):
+    val smoke =
+      """MakeNamedMedium "smoke" "string type" "homogeneous" "rgb sigma_a" [9e4 9e4 9e4]
+      |MediumInterface "smoke" ""
+      |Material "interface"
+      |Scale 9 9 1
+      |""".stripMargin + Sphere
+    val volpath = scene(Sky + smoke).replace("WorldBegin", "Integrator \"volpath\"\nWorldBegin")
+    val rendered = said(volpath, "render")
+    assert(rendered.contains("no light comes through the media"), rendered)
+    assert(!rendered.contains("looks past"), rendered)
+
   test("a picture that is too dark is told of, with the exposure that shows it"):
     val faint = scene(Sphere + "LightSource \"distant\" \"rgb L\" [1e-4 1e-4 1e-4] " +
       "\"point3 from\" [0 0 -1] \"point3 to\" [0 0 0]\n")

@@ -109,9 +109,13 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
     for material <- Vector(""""alphaMode":"MASK"""", """"alphaMode":"BLEND"""") do
       val clear = s""",$material,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]}"""
       assertRadiance(cubes(Seq(Camera, Cube), Inside, clear), Math.exp(-Absorption))
+      // Light from the side
+      val lamp = """{"extras":{"candela":{"light":{"size":[1,1]}}},"translation":[3,0.5,0.5],
+                   |"rotation":[0,0.7071,0,0.7071]}""".stripMargin
+      val nodes = Seq(Camera, Cube, lamp)
       val scattering = s"""$Inside,"scattering":[1,1,1]"""
-      val passed = image(cubes(Seq(Camera, Cube), s"""$scattering,"surface":false"""))
-      assert(image(cubes(Seq(Camera, Cube), scattering, clear)).data.toSeq == passed.data.toSeq)
+      val passed = image(cubes(nodes, s"""$scattering,"surface":false"""))
+      assert(image(cubes(nodes, scattering, clear)).data.toSeq == passed.data.toSeq)
 
   test("media cover what is behind them"):
     val alpha = RenderSettings(layers = Vector(Layer.Alpha))

@@ -67,3 +67,6 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(own == 0 && printed.out.contains("WorldEnd")) // as in v2 and v3
       val (code, captured) = run(file, "--to", "v2", "--dialect", "v3")
       assert(code == 1 && captured.err.contains("can't convert a v3 scene to v2"))
+      val model = "scenes/models/gl-shapes.gltf"
+      val (refused, why) = run(model, "--to", "v2", "--outfile", s"$folder/shapes.pbrt")
+      assert(refused == 1 && why.err.contains("can't convert a gltf scene to v2"))
