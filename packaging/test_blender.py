@@ -16,6 +16,7 @@ import types
 import unittest
 import zipfile
 from pathlib import Path
+from unittest import mock
 
 PACKAGING = Path(__file__).resolve().parent
 _HOME = tempfile.TemporaryDirectory(prefix="candela test ")
@@ -554,12 +555,31 @@ class Rendering(unittest.TestCase):
             bpy.ops.render.render()
         made.scene.camera = bpy.data.objects["Camera"]
         preferences = bpy.context.preferences.addons[MODULE].preferences
-        preferences.program = os.path.join(_HOME.name, "absent")
+        file = os.path.join(_HOME.name, "program")
         try:
-            with self.assertRaisesRegex(RuntimeError, "Preferences"):
-                bpy.ops.render.render()
+            for text, mode, said in (
+                (None, 0, "Preferences"),
+                ("no program", 0o644, "can't start .*program: Permission denied"),
+                ("no program", 0o755, "can't start .*program: Exec format error"),
+                ("#!/bin/sh\nexit 3", 0o755, "has ended with exit code 3"),
+            ):
+                if text is not None:
+                    Path(file).write_text(text)
+                    os.chmod(file, mode)
+                preferences.program = file
+                with self.assertRaisesRegex(RuntimeError, said):
+                    bpy.ops.render.render()
         finally:
             preferences.program = ""
+
+    def test_an_exception_is_an_error_of_the_rendering(self):
+        made = Scene(1.0)
+        made.scene.render.engine = "CANDELA"
+        with mock.patch.object(part("export"), "write", side_effect=OSError("the disk is full")):
+            with contextlib.redirect_stderr(io.StringIO()) as printed:
+                with self.assertRaisesRegex(RuntimeError, "OSError: the disk is full"):
+                    bpy.ops.render.render()
+        self.assertIn("Traceback", printed.getvalue())
 
     def test_escape_ends_a_rendering_and_keeps_its_image(self):
         made = lit()

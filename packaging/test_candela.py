@@ -5,6 +5,7 @@ import copy
 import io
 import os
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -778,6 +779,20 @@ class InMemory(unittest.TestCase):
         self.assertEqual([w.filename for w in caught], [__file__])
 
 
+    def test_commands_have_the_warnings_of_their_scenes(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file, image = Path(folder) / "a.xml", Path(folder) / "a.exr"
+            file.write_text(XML.replace('"red">', '"red"><float name="alpah" value="1"/>'))
+            for words in (["check", file], ["render", file, "--spp", 1, "--outfile", image]):
+                with self.assertWarnsRegex(candela.CandelaWarning, "`alpah`") as caught:
+                    candela.run(*words)
+                self.assertEqual(caught.filename, __file__)
+            file.write_text(XML)
+            with contextlib.redirect_stderr(io.StringIO()) as printed:
+                candela.run("render", file, "--spp", 1, "--outfile", image, "--verbose")
+            self.assertIn("triangles ", printed.getvalue())
+
+
 class Kept(unittest.TestCase):
     """Values of scenes that are changed, copied and taken from other modules."""
 
@@ -856,10 +871,31 @@ class Kept(unittest.TestCase):
             self.assertAlmostEqual(float(albedo[1, 1, 0]), expected, 3)
 
     def test_a_texture_brighter_than_its_light_is_a_warning(self):
-        with self.assertWarnsRegex(candela.CandelaWarning, "from 0 to 200, expected 0 to 1"):
-            pixels = np.full((2, 2, 3), 200.0)
-            pixels[0, 0] = 0
-            self.scene({"type": "bitmap", "data": pixels})
+        pixels, glow = np.full((2, 2, 3), 0.5), {"type": "ref", "id": "glow"}
+        scene = candela.load_dict(
+            {
+                **mitsuba(),
+                "red": {"type": "diffuse", "reflectance": {"type": "bitmap", "data": pixels}},
+                "pixels": {"type": "bitmap", "data": pixels},
+                "raw": {"type": "bitmap", "data": pixels, "raw": True},
+                "lit": {"type": "sphere", "light": {"type": "area", "radiance": glow}},
+                "glow": {"type": "bitmap", "data": 2 * pixels},
+            }
+        )
+        values = scene.parameters()
+        self.assertEqual(scene.check(), [])
+        for key in ("red.reflectance.data", "pixels.data"):
+            for factor, found in ((400, "200 to 200"), (-1, "-0.5 to -0.5")):
+                values[key] = factor * pixels
+                message = f"{key}: warning: values from {found}, expected 0 to 1 [E0304]"
+                self.assertEqual([p.text for p in scene.check()], [message])
+                with self.assertWarns(candela.CandelaWarning) as caught:
+                    scene.render(spp=1)
+                self.assertEqual(str(caught.warning), message)
+                self.assertEqual(caught.filename, __file__)
+            values[key] = np.float32([[[0.1 * 10]]]) + 1e-7
+        values["raw.data"] = 400 * pixels
+        self.assertEqual(scene.check(), [])
 
     def test_films_of_other_channels_have_colours(self):
         scene = self.scene({"type": "rgb", "value": [0.8, 0.1, 0.1]})
@@ -991,6 +1027,19 @@ image = candela.load_string({XML!r}).render(spp=1)
 assert image.rgb.shape == (16, 24, 3) and image.rgb.format == "f"
 assert image._repr_png_().startswith(b"\\x89PNG")
 print(image.rgb[8, 12, 0])
+arrays = [
+    lambda: image.mean(), lambda: 2 * image, lambda: image - image, lambda: 1 / image,
+    lambda: image[:, :, 0], lambda: candela.Image([[[1.0, 1.0, 1.0]]]), lambda: candela.mesh([], []),
+    lambda: setattr(image, "rgb", 1),
+    lambda: candela.load_dict({{"type": "scene", "t": {{"type": "bitmap", "data": [[1.0]]}}}}),
+]
+for each in arrays:
+    try:
+        each()
+    except candela.UsageError as e:
+        assert str(e) == "arrays need NumPy, which is not installed"
+    else:
+        raise AssertionError
 """
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -1318,6 +1367,41 @@ class Scenes(unittest.TestCase):
         while alive() and time.monotonic() < deadline:
             time.sleep(0.2)
         self.assertFalse(alive())
+
+    @unittest.skipIf(os.name == "nt", "scripts")
+    def test_a_command_that_the_variable_names_does_not_start_itself(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            inner = Path(folder) / "candela" / "program" / "bin"
+            shutil.copytree(Path(candela.__file__).parent, inner.parents[1])
+            inner.mkdir(parents=True)
+            bundled, command = inner / "candela", Path(folder) / "command"
+            bundled.write_text('#!/bin/sh\necho "bundled $*"\n')
+            command.write_text(
+                f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {folder!r})\n"
+                "from candela.__main__ import main\nsys.exit(main())\n"
+            )
+            bundled.chmod(0o755)
+            command.chmod(0o755)
+            with mock.patch.dict(os.environ, {"CANDELA_PROGRAM": str(command)}):
+                self.assertEqual(candela.run("a"), "bundled a\n")
+                done = subprocess.run([command, "b"], capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.stdout, "bundled b\n")
+
+    @unittest.skipIf(os.name == "nt", "modes of files")
+    def test_a_program_that_cannot_be_started_is_told(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file = Path(folder) / "candela"
+            file.write_text("no program")
+            with mock.patch.dict(os.environ, {"CANDELA_PROGRAM": str(file)}):
+                for mode, why in ((0o644, "Permission denied"), (0o755, "Exec format error")):
+                    file.chmod(mode)
+                    for call in (lambda: candela.run("--version"), candela.version):
+                        with self.assertRaisesRegex(candela.UsageError, f"can't start .*: {why}"):
+                            call()
+                    command = [sys.executable, "-m", "candela"]
+                    done = subprocess.run(command, capture_output=True, text=True)
+                    self.assertRegex(done.stderr, f"^candela: .*{why}")
+                    self.assertEqual(done.returncode, 1)
 
     def test_the_command_is_the_program(self):
         command = [sys.executable, "-m", "candela", "--version"]

@@ -4,6 +4,7 @@ import os
 import queue
 import tempfile
 import threading
+import traceback
 from pathlib import Path
 
 import bpy
@@ -46,6 +47,9 @@ class CandelaRenderEngine(bpy.types.RenderEngine):
             pass
         except (settings.NoProgram, export.ExportError, CandelaError) as error:
             self.report({"ERROR"}, str(error))
+        except Exception as error:  # Blender may crash if it receives one
+            traceback.print_exc()
+            self.report({"ERROR"}, f"{type(error).__name__}: {error}")
 
 
 def _on_main_thread(work, is_ended):

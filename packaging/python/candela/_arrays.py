@@ -10,14 +10,8 @@ import weakref
 import zlib
 from typing import Any, Dict
 
-from ._errors import UsageError
 from ._image import Image, exr
-from ._values import described
-
-try:
-    import numpy as np
-except ImportError:
-    np = None  # type: ignore[assignment]
+from ._values import described, np
 
 
 class ArrayFile:
@@ -63,7 +57,6 @@ def mesh(vertices: Any, faces: Any, normals: Any = None, texcoords: Any = None) 
         faces flat
     :param texcoords: n × 2, u and v of the vertices
     """
-    _need_numpy()
     points = _rows("vertices", vertices, 3)
     triangles = _rows("faces", faces, 3, kinds="iu")
     count = len(points)
@@ -91,11 +84,6 @@ def mesh(vertices: Any, faces: Any, normals: Any = None, texcoords: Any = None) 
     return {"type": "ply", "filename": ArrayFile(".ply", data)}
 
 
-def _need_numpy() -> None:
-    if np is None:
-        raise UsageError("arrays need NumPy, which is not installed")
-
-
 def _rows(name: str, values: Any, width: int, count: Any = "n", kinds: str = "fiu") -> Any:
     array = np.asarray(values)
     is_right = array.ndim == 2 and array.shape[1] == width and array.dtype.kind in kinds
@@ -112,7 +100,6 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
 
     :param is_raw: whether its values are taken as they are
     """
-    _need_numpy()
     array = np.array(values)
     if array.size == 0 and type(values).__module__.startswith("drjit"):
         raise ValueError("the tensor is empty (Mitsuba's load_dict takes its values)")

@@ -6,6 +6,7 @@ import difflib
 import os
 import re
 import sys
+import warnings
 from dataclasses import dataclass, replace
 from typing import Iterable, List, Optional, Tuple
 
@@ -210,8 +211,15 @@ def error_of(code: int, lines: List[str], keys: Optional[Keys] = None) -> Candel
     return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)
 
 
-def user_frame() -> int:
-    """How far above a warning the call is that is not of this package."""
+def warn(problems: Iterable[Problem]) -> None:
+    """The warnings among them, as Python's, of the line that calls this package."""
+    for problem in problems:
+        if problem.severity == "warning":
+            warnings.warn(problem.text, CandelaWarning, stacklevel=_user_level())
+
+
+def _user_level() -> int:
+    """How far above ``warn`` the call is that is not of this package."""
     frame, level = sys._getframe(2), 2
     while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
         frame, level = frame.f_back, level + 1

@@ -14,13 +14,8 @@ from array import array
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
 
-from ._errors import CandelaError, UsageError, missing
-from ._values import described
-
-try:
-    import numpy as np
-except ImportError:  # images have memoryviews
-    np = None  # type: ignore[assignment]
+from ._errors import CandelaError, missing, warn
+from ._values import described, np
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -35,8 +30,7 @@ class Image:
     is the place of a crop in the whole image: x, y, and the whole's width and height.
 
     Arrays are NumPy's, of float32; without NumPy, they are memoryviews: ``image.rgb[y, x, 0]``.
-    ``Image(array)`` is one of height × width × 3, or × 4 with alpha, by which its colours are
-    multiplied.
+    ``Image(array)`` is one of height × width × 3, or × 4 with premultiplied alpha.
     """
 
     def __init__(
@@ -54,7 +48,7 @@ class Image:
     @property
     def rgb(self) -> Any:
         """Red, green and blue, in float32; of a film in luminance or X, Y and Z, converted."""
-        if "rgb" in self.layers or "Y" not in self.layers or np is None:
+        if "rgb" in self.layers or "Y" not in self.layers or not np:
             return self["rgb"]
         if "X" in self.layers and "Z" in self.layers:
             xyz = np.dstack([self.layers[name] for name in "XYZ"])
@@ -98,7 +92,7 @@ class Image:
         is ``u`` and ``v``.
         """
         if not isinstance(name, str):
-            return self.rgb[name]
+            return np.asarray(self)[name]
         names = self._named(name)
         if not names:
             known = {*self.layers, *(word for word in _WORDS if self._named(word))}
@@ -163,7 +157,7 @@ class Image:
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             source = Path(folder) / "image.exr"
             source.write_bytes(exr(self))
-            execute(["image", str(source), "--outfile", target])
+            warn(execute(["image", str(source), "--outfile", target])[1])
 
     def _repr_png_(self) -> bytes:
         """The picture that notebooks show."""
@@ -178,8 +172,6 @@ class Image:
 
 def _layers(values: Any) -> Dict[str, Any]:
     """Those of an array."""
-    if np is None:
-        raise UsageError("images of arrays need NumPy, which is not installed")
     array = np.asarray(values)
     if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype.kind != "f":
         expected = "height × width × 3 or height × width × 4, floats of linear light"
@@ -211,7 +203,7 @@ _WORDS = {
 
 def _joined(image: Image, names: List[str]) -> Any:
     """An array of the channels of several layers, one after the other."""
-    if np is not None:
+    if np:
         return np.dstack([image.layers[name] for name in names])
     planes: List["array[float]"] = []
     for name in names:
@@ -235,7 +227,7 @@ def load(path: PathLike) -> Image:
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             arrays = Path(folder) / "image.npz"
             command = "merge" if source.lower().endswith(".film") else "image"
-            execute([command, source, "--outfile", str(arrays)])
+            warn(execute([command, source, "--outfile", str(arrays)])[1])
             return load(arrays)
     with zipfile.ZipFile(source) as archive:
         if "metadata.json" not in archive.namelist():
@@ -260,7 +252,7 @@ def _array(data: bytes) -> Any:
     start = len(_NPY) + 2
     shape = ast.literal_eval(data[start : start + length].decode("latin-1").strip())["shape"]
     values = bytearray(data[start + length :])  # which may be written to
-    if np is not None:
+    if np:
         return np.frombuffer(values, "<f4").reshape(shape)
     return memoryview(values).cast("f", shape=list(shape))
 
@@ -282,7 +274,7 @@ def _write_npz(image: Image, path: str) -> None:
 def _flat(values: Any) -> "array[float]":
     """All values, one after the other."""
     data = array("f")
-    contiguous = values if np is None else np.ascontiguousarray(values, "<f4")
+    contiguous = np.ascontiguousarray(values, "<f4") if np else values
     data.frombytes(contiguous.tobytes())
     return data
 

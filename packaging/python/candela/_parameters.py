@@ -21,6 +21,7 @@ from ._xml import (
     error_of_faults,
     fault,
     is_matrix,
+    is_raw,
     joined,
     name_of,
 )
@@ -90,8 +91,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         parent, old = self._path(key)
         faults: List[Problem] = []
         if isinstance(old, FileElement) and old.is_texture:
-            is_raw = any(x.get("name") == "raw" and x.get("value") == "true" for x in parent)
-            new = array_of(value, key, faults, is_raw)
+            new = array_of(value, key, faults, is_raw(parent))
         else:
             new = element_of(old.get("name", ""), _like(old, value, key), key, faults)
         if new is not None and not _fits(old, new):

@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-import warnings
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Optional, Union
+from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
-from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python, user_frame
+from ._errors import Problem, SceneError, UsageError, in_python, warn
 from ._image import Image, load
 from ._scene import Scene, load_dict
 from ._session import Listener, execute
@@ -70,7 +69,6 @@ def render(
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
         loaded = _scene(scene)  # whose files of arrays last as long as it
-        name, text, keys = loaded.source()
         if loaded.has_arrays and any(
             os.fspath(x).lower().endswith(".film") for x in _items(outfile)
         ):
@@ -79,20 +77,15 @@ def render(
                 "scene.save('scene.xml') writes them; then render that file"
             )
         files = {"outfile": [file, *_items(outfile)], "aov": aov, "spp": spp}
-        words = ["render", name, *_words({**files, **options})]
-        given = None if text is None else (name, text)
-        _, problems = execute(words, given, keys, progress, file)
-        _warn(problems)
+        _, problems = _execute("render", loaded, {**files, **options}, progress, file)
+        warn(problems)
         return load(file)
 
 
 def check(scene: Union[PathLike, Scene, Dict[str, Any]], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
     try:
-        loaded = _scene(scene)
-        name, text, keys = loaded.source()
-        given = None if text is None else (name, text)
-        printed, problems = execute(["check", name, *_words(options)], given, keys)
+        printed, problems = _execute("check", _scene(scene), options)
     except SceneError as error:
         return list(error.problems)
     if options.get("explain") or options.get("verbose"):
@@ -109,6 +102,16 @@ def _scene(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
     if isinstance(scene, dict):
         return load_dict(scene)
     return scene if isinstance(scene, Scene) else Scene(os.fspath(scene), None)
+
+
+def _execute(
+    command: str, scene: Scene, options: Dict[str, Value], *how: Any
+) -> Tuple[str, List[Problem]]:
+    """What a command prints, and the warnings of the scene."""
+    name, text, keys = scene.source()
+    given = None if text is None else (name, text)
+    printed, problems = execute([command, name, *_words(options)], given, keys, *how)
+    return printed, scene.range_warnings() + problems
 
 
 def _words(options: "dict[str, Value]") -> List[str]:
@@ -145,9 +148,3 @@ def _word(value: Any) -> str:
     if isinstance(value, float) and value.is_integer():
         return str(int(value))  # what counts may come of a computation
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def _warn(problems: List[Problem]) -> None:
-    for problem in problems:
-        if problem.severity == "warning":
-            warnings.warn(problem.text, CandelaWarning, stacklevel=user_frame())

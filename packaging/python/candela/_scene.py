@@ -49,6 +49,9 @@ class Scene:
     def has_arrays(self) -> bool:
         return bool(_xml.arrays(self._tree))
 
+    def range_warnings(self) -> List[Problem]:
+        return [] if self._tree is None else _xml.range_warnings(self._tree)
+
     def source(self) -> Tuple[str, Optional[str], Optional[Keys]]:
         """The name, the text unless it is a file, and the keys of its lines if it is a dict's."""
         if self._of_dict and self._tree is not None:

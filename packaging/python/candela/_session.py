@@ -24,6 +24,7 @@ from ._errors import (
     in_python,
     is_note,
     problems_in,
+    warn,
 )
 from ._scene import Scene
 from ._values import plain
@@ -67,6 +68,11 @@ def program() -> Path:
     return path
 
 
+def program_environment() -> Dict[str, str]:
+    """Without the variable, which may name the command of a wheel: it would start itself."""
+    return {name: each for name, each in os.environ.items() if name != "CANDELA_PROGRAM"}
+
+
 def start(words: Sequence[str], **streams: Any) -> "subprocess.Popen[str]":
     """Starts the program in a process group of its own: Ctrl-C reaches Python alone."""
     new_group: Dict[str, Any] = (
@@ -76,16 +82,20 @@ def start(words: Sequence[str], **streams: Any) -> "subprocess.Popen[str]":
     )
     # The program ends when its input does, even if this process is killed; and it looks for
     # libraries in the packages of this Python, which no shell may have activated
-    environment = dict(os.environ, CANDELA_PARENT="stdin", VIRTUAL_ENV=sys.prefix)
-    return subprocess.Popen(
-        [str(program()), *words],
-        stdin=subprocess.PIPE,
-        encoding="utf-8",
-        errors="replace",
-        env=environment,
-        **new_group,
-        **streams,
-    )
+    environment = {**program_environment(), "CANDELA_PARENT": "stdin", "VIRTUAL_ENV": sys.prefix}
+    path = program()
+    try:
+        return subprocess.Popen(
+            [str(path), *words],
+            stdin=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            env=environment,
+            **new_group,
+            **streams,
+        )
+    except OSError as e:
+        raise UsageError(f"can't start {path}: {e.strerror}") from e
 
 
 class Session:
@@ -97,7 +107,11 @@ class Session:
         self.is_closed = False  # by the user
         self._closing = threading.Lock()
         self._errors: IO[bytes] = tempfile.TemporaryFile()
-        self._child = start(["session"], stdout=subprocess.PIPE, stderr=self._errors)
+        try:
+            self._child = start(["session"], stdout=subprocess.PIPE, stderr=self._errors)
+        except UsageError:
+            self._errors.close()
+            raise
         self._answers: "queue.Queue[Optional[Dict[str, Any]]]" = queue.Queue()
         self._reader = threading.Thread(target=self._read, daemon=True, name="candela")
         self._reader.start()
@@ -175,8 +189,7 @@ class Session:
                 answer = self._answer()
                 if "message" in answer:
                     messages.append(answer["message"])
-                    if is_note(messages[-1]):
-                        print(in_python(messages[-1]), file=sys.stderr, flush=True)
+                    _print_note(messages[-1])
                 elif "code" in answer:
                     return answer["code"], answer["output"], messages
                 elif progress is not None:
@@ -219,6 +232,12 @@ class Session:
             self._errors.seek(0)
             self._printed = self._errors.read().decode("utf-8", "replace").strip()
             self._errors.close()
+
+
+def _print_note(line: str) -> None:
+    """Of what tells of no problem."""
+    if is_note(line):
+        print(in_python(line), file=sys.stderr, flush=True)
 
 
 def _key() -> Tuple[str, Optional[str]]:
@@ -317,7 +336,8 @@ def run(*words: Any) -> str:
 
     >>> print(candela.run("compare", "a.exr", "b.exr"))
 
-    Raises ``CandelaError`` if its exit code is not 0. ``KeyboardInterrupt`` ends it, too.
+    Raises ``CandelaError`` if its exit code is not 0. Warnings are Python's, of the class
+    ``CandelaWarning``. ``KeyboardInterrupt`` ends it, too.
     """
     if any(isinstance(word, (Scene, dict)) for word in words):
         raise UsageError("candela.run takes files: save the scene, as scene.save('scene.xml')")
@@ -354,8 +374,12 @@ def run(*words: Any) -> str:
         for stream in (child.stdin, child.stdout, child.stderr):
             if stream is not None:
                 stream.close()
+    messages = outputs["err"].splitlines()
     if child.returncode != 0:
-        raise error_of(child.returncode, outputs["err"].splitlines())
+        raise error_of(child.returncode, messages)
+    for line in messages:
+        _print_note(line)
+    warn(problems_in(messages))
     return outputs["out"]
 
 

@@ -6,7 +6,7 @@ import math
 import numbers
 from typing import Any, List, Sequence, Union, overload
 
-from ._values import described, plain
+from ._values import described, np, plain
 
 Matrix = List[List[float]]
 
@@ -88,9 +88,7 @@ class Transform:
         return linear.translate([-a[i][3] for i in range(3)])
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
-        import numpy
-
-        return numpy.array(self.matrix, dtype)
+        return np.array(self.matrix, dtype)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Transform) and self.matrix == other.matrix

@@ -6,6 +6,24 @@ import math
 import os
 from typing import Any, List
 
+from ._errors import UsageError
+
+try:
+    import numpy
+except ImportError:  # images have memoryviews
+    numpy = None  # type: ignore[assignment]
+
+
+class _NoNumpy:
+    def __bool__(self) -> bool:
+        return False
+
+    def __getattr__(self, name: str) -> Any:
+        raise UsageError("arrays need NumPy, which is not installed")
+
+
+np: Any = numpy or _NoNumpy()  # false without NumPy
+
 _SHOWN = 16  # values of a list in a message
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
-import warnings
 import xml.etree.ElementTree as ET
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 from ._arrays import ArrayFile, texture
-from ._errors import OF_DEFINE, CandelaWarning, Keys, Problem, SceneError, user_frame
+from ._errors import OF_DEFINE, Keys, Problem, SceneError
 from ._plugins import ELEMENTS
 from ._transform import is_transform, rows
 from ._values import described, plain
@@ -156,20 +155,30 @@ def _object(
             child = _element(inner, each, f"{key}.{inner}", faults)
         if child is not None:
             tree.append(child)
-            if element == "bsdf":
-                _warn_of_range(child, f"{key}.{inner}")
     return tree
 
 
-def _warn_of_range(bitmap: ET.Element, key: str) -> None:
-    """As Mitsuba: such a texture of a BSDF reflects more light than it gets."""
-    for child in bitmap if bitmap.get("type") == "bitmap" else ():
-        array = child.file.array if isinstance(child, FileElement) else None
-        if array is not None and array.dtype.kind == "f":
-            low, high = float(array.min()), float(array.max())
-            if low < 0 or high > 1:
-                message = f"{key}.data: warning: values from {low:g} to {high:g}, expected 0 to 1"
-                warnings.warn(message, CandelaWarning, stacklevel=user_frame())
+def range_warnings(root: ET.Element) -> List[Problem]:
+    """As Mitsuba's: textures that reflect more light than they get, or less than none."""
+    of_lights = {ref.get("id") for light in root.iter("emitter") for ref in light.iter("ref")}
+    rest = (x for x in root if x.tag != "emitter" and x.get("id") not in of_lights)
+    return [x for each in rest for x in _range_warnings(each, name_of(each))]
+
+
+def _range_warnings(parent: ET.Element, key: str) -> Iterator[Problem]:
+    for child in parent:
+        inner = joined(key, name_of(child))
+        if isinstance(child, FileElement) and parent.tag == "texture" and not is_raw(parent):
+            array = child.file.array
+            low, high = f"{array.min():g}", f"{array.max():g}"  # without rounding errors
+            if array.dtype.kind == "f" and not 0 <= float(low) <= float(high) <= 1:
+                yield problem("warning", inner, f"values from {low} to {high}, expected 0 to 1")
+        elif child.tag != "emitter":
+            yield from _range_warnings(child, inner)
+
+
+def is_raw(texture: ET.Element) -> bool:
+    return any(x.get("name") == "raw" and x.get("value") == "true" for x in texture)
 
 
 def array_of(
@@ -227,9 +236,16 @@ def _numbers(values: List[float]) -> str:
 
 
 def fault(key: str, message: str, number: str = "E0304", help: Optional[str] = None) -> Problem:
-    first = f"{key}: error: {message} [{number}]" if key else f"error: {message} [{number}]"
-    text = first if help is None else f"{first}\n {help}"
-    return Problem("error", message, text, number=number, key=key or None)
+    return problem("error", key, message, number, help)
+
+
+def problem(
+    severity: str, key: str, message: str, number: str = "E0304", help: Optional[str] = None
+) -> Problem:
+    place = f"{key}: " if key else ""
+    below = "" if help is None else f"\n {help}"
+    text = f"{place}{severity}: {message} [{number}]{below}"
+    return Problem(severity, message, text, number=number, key=key or None)
 
 
 def error_of_faults(faults: List[Problem]) -> SceneError:

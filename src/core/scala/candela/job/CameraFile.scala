@@ -49,7 +49,7 @@ object CameraFile:
       try Path.of(name)
       catch case e: InvalidPathException => fail(name, e.getReason)
     if !Files.exists(file) then
-      fail(name, "no such file", SceneFolder.suggestionFor(file).map(f => s"did you mean `$f`?"))
+      fail(name, "no such file", SceneFolder.suggestionFor(file))
     if Files.isDirectory(file) then fail(name, "it is a folder")
     file
 

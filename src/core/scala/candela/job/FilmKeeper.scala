@@ -2,7 +2,7 @@ package candela.job
 
 import candela.base.Version
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
-import candela.io.WholeFile
+import candela.io.{SceneFolder, WholeFile}
 import candela.render.RenderPlan
 import candela.measure.Interval
 import candela.render.storage.{Checkpoints, FilmError, FilmFile, FilmHeader, FilmLock, FilmWriter}
@@ -103,7 +103,10 @@ object FilmKeeper:
   def open(path: Path, warn: Problem => Unit): FilmFile =
     val film =
       try FilmFile.open(path)
-      catch case e: IOException => fail(Code.DamagedFilm, e.getMessage)
+      catch
+        case e: IOException =>
+          if Files.exists(path) then fail(Code.DamagedFilm, e.getMessage)
+          fail(Code.NoSuchFile, e.getMessage, SceneFolder.suggestionFor(path).getOrElse(""))
     for damage <- film.damage do
       val message = s"can't read `$path`: $damage; using its previous copy, " +
         s"`${FilmFile.previous(film.path).getFileName}`"

@@ -172,7 +172,7 @@ class CameraFileSuite extends AnyFunSuite:
       def told(name: String) =
         intercept[SceneError](read(scene, Some(folder.resolve(name)))).problems.head
       assert(told("camrea.pbrt").message.endsWith("camrea.pbrt`: no such file"))
-      assert(told("camrea.pbrt").help.exists(_.contains("camera.pbrt")))
+      assert(told("camrea.pbrt").help.contains("did you mean `camera.pbrt`?"))
       assert(told("").message.endsWith("it is a folder"))
 
   test("a turntable, which moves the camera itself, refuses another one"):
