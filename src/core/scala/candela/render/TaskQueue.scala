@@ -92,14 +92,16 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
     if step < endStep && !isStopped then step else -1L
 
   /** Waits until the earlier waves of a piece are finished and the schedule opens this wave; false
-    * if cancelled.
+    * if cancelled, or if this wave is finished: a piece that was ahead in a saved film finishes it
+    * before the others, in a shortened pass.
     *
     * Another worker may still process them. Deadlock is impossible, since steps are claimed in
     * order: a worker waits only for earlier steps. Waiting also makes the other worker's
     * accumulators visible to this one.
     */
   def awaitTurn(piece: Int, wave: Int): Boolean =
-    while !isTurn(piece, wave) && goesOn() do LockSupport.parkNanos(TaskQueue.Pause)
+    while finishedWaves.get(piece) <= wave && !isTurn(piece, wave) && goesOn() do
+      LockSupport.parkNanos(TaskQueue.Pause)
     isTurn(piece, wave)
 
   private[render] def isTurn(piece: Int, wave: Int): Boolean =

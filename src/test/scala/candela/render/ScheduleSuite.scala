@@ -62,6 +62,21 @@ class ScheduleSuite extends AnyFunSuite:
     queue.finish(0, 2)
     assert(!queue.isTurn(0, 3))
 
+  test("a piece that has finished a wave ahead of the others doesn't wait for it again"):
+    val cancellation = Cancellation()
+    val queue = TaskQueue(TileSchedule(crop, 64), cancellation)
+    queue.start(1)
+    // A shortened pass, in which the first piece is at the end of the wave already
+    queue.openUntil(wave = 1, samples = 1)
+    queue.finish(0, 0)
+    // Waiting would end only here
+    val late = Thread: () =>
+      Thread.sleep(10_000)
+      cancellation.request()
+    late.setDaemon(true)
+    late.start()
+    assert(!queue.awaitTurn(0, 0) && !cancellation.isRequested)
+
   test("tiles cover every pixel of the crop once, and no other"):
     val schedule = TileSchedule(crop, 1)
     val covered =
