@@ -225,8 +225,9 @@ object BiasTest:
         val floor = Math.pow(rounding * scale, 2)
         val variance = p.variance + q.variance
         // Welch and Satterthwaite; what rounding adds is known
-        val freedom = Math.pow(variance + floor, 2) /
+        val welch = Math.pow(variance + floor, 2) /
           (Math.pow(p.variance, 2) / p.freedom + Math.pow(q.variance, 2) / q.freedom)
+        val freedom = Math.min(welch, Estimate.maxFreedom(p, q))
         val error = Math.sqrt(variance + floor)
         val chance = 2 * TDistribution.of(freedom).survivalProbability(apart / error)
         val window = PixelWindow(
@@ -274,6 +275,13 @@ object BiasTest:
 
   private object Estimate:
     def pair(a: Estimate, b: Estimate): (Estimate, Estimate) = (a.beside(b), b.beside(a))
+
+    /** Beside a single image, whose variance is known well, a few images that happen to agree would
+      * have the degrees of freedom of that one, and no noise: they keep their own.
+      */
+    def maxFreedom(a: Estimate, b: Estimate): Double =
+      if a.images > 0 && b.images > 0 then Double.PositiveInfinity
+      else Math.min(a.freedom, b.freedom)
 
   /** What one program finds in regions, in one channel. */
   private abstract class Estimates:

@@ -75,18 +75,23 @@ class BiasTestSuite extends AnyFunSuite:
     assert(Math.abs(test.histogram.sum - 1) < 1e-9)
 
   test("an image with its variance is compared like images of seeds"):
-    def known(change: Double) =
-      val mean = Image.rgb(side, side)
-      val variance = Image.rgb(side, side)
-      for i <- mean.data.indices do
-        val value = (0.2 + (i / 3 % side + i % 3) / 100.0) * change
-        // The mean of 8 even images
-        val noise = (1 to 8).map(_ => even(random)).sum / 8
-        mean.data(i) = (value * noise).toFloat
-        variance.data(i) = (value * value * 0.49 / 12 / 8).toFloat
-      Renderings.withVariance(mean, variance, 7)
-    assert(alarms(20)(BiasTest.of(known(1), images(8, even))) <= 4)
-    assert(BiasTest.of(known(1.02), images(16, even)).p < 0.05)
+    assert(alarms(20)(BiasTest.of(known(8), images(8, even))) <= 4)
+    assert(BiasTest.of(known(8, 1.02), images(16, even)).p < 0.05)
+
+  test("few images that happen to agree are no alarm beside one with its variance"):
+    for count <- 2 to 4 do
+      assert(alarms(repeats)(BiasTest.of(known(64), images(count, even))) <= most, count)
+
+  /** The mean of `count` even images, with its variance. */
+  private def known(count: Int, change: Double = 1): Renderings =
+    val mean = Image.rgb(side, side)
+    val variance = Image.rgb(side, side)
+    for i <- mean.data.indices do
+      val value = (0.2 + (i / 3 % side + i % 3) / 100.0) * change
+      val noise = (1 to count).map(_ => even(random)).sum / count
+      mean.data(i) = (value * noise).toFloat
+      variance.data(i) = (value * value * 0.49 / 12 / count).toFloat
+    Renderings.withVariance(mean, variance, count - 1)
 
   test("pixels that are alike have so much more variance in the mean of an image"):
     def flat(value: Float) = Image(side, side, Image.RgbNames, Array.fill(side * side * 3)(value))
