@@ -40,25 +40,30 @@ private[models] final class Interiors(scene: SceneDescription, session: Session)
           "this mesh is not closed: rays may enter its medium and never leave it"
         )
       val surrounding = mutable.HashMap.empty[(String, Transform), String]
+      // The first box and the first mesh, of which there may be millions
+      val crossing = mutable.LinkedHashMap.empty[Boolean, FilledMesh]
       for (box, inner) <- meetings do
         if box.surrounds(inner) then surrounding((inner.medium, inner.toWorld)) = box.medium
-        else if inner.isGrid then
-          val message = "the boxes of two media overlap or touch; there, only one of them is seen"
-          session.warn(inner.mesh.at, message)
-        else
-          val message = "this mesh meets the box of another medium, which may not be seen behind it"
-          session.warn(inner.mesh.at, message)
+        else crossing.getOrElseUpdate(inner.isGrid, inner.mesh): Unit
+      for (isGrid, mesh) <- crossing do
+        val message =
+          if isGrid then "the boxes of two media overlap or touch; there, only one of them is seen"
+          else "this mesh meets the box of another medium, which may not be seen behind it"
+        session.warn(mesh.at, message)
       withCamera(scene.copy(shapes = scene.shapes.map: s =>
         surrounding.get(key(s)).fold(s)(around => s.copy(outsideMedium = around))))
 
   /** Boxes, and what overlaps or touches them. */
   private def meetings: Iterator[(Interior, Interior)] =
     val sorted = if grids.isEmpty then Vector.empty else interiors.sortBy(_.bounds.min.x)
+    val boxes = sorted.filter(_.isGrid)
+    val boxesBefore = sorted.scanLeft(0)((count, a) => if a.isGrid then count + 1 else count)
     for
       i <- sorted.indices.iterator
       a = sorted(i)
-      b <- sorted.iterator.drop(i + 1).takeWhile(_.bounds.min.x <= a.bounds.max.x)
-      if (a.isGrid || b.isGrid) && a.overlaps(b)
+      // Meshes don't look for other meshes
+      later = if a.isGrid then sorted.iterator.drop(i + 1) else boxes.iterator.drop(boxesBefore(i))
+      b <- later.takeWhile(_.bounds.min.x <= a.bounds.max.x) if a.overlaps(b)
     yield if a.isGrid then (a, b) else (b, a)
 
   private def withCamera(scene: SceneDescription): SceneDescription =
