@@ -164,6 +164,23 @@ class Scene:
         return json.loads(data[20 : 20 + length]), warnings
 
 
+def image_node(made, size):
+    """On the floor: the shader and the node of an image, not linked."""
+    tree = made.floor.data.materials[0].node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.new("wood", size, size, alpha=True)
+    return next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"), node
+
+
+def papered(made):
+    shader, node = image_node(made, 16)
+    pixels = np.random.default_rng(1).random((16, 16, 4), np.float32)
+    pixels[..., 3] = 1
+    node.image.pixels.foreach_set(pixels.ravel())
+    node.interpolation = "Closest"
+    shader.id_data.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+
+
 def map_of_patches():
     """An environment of gradients with two lamps."""
     rows = 256
@@ -457,6 +474,7 @@ SCENES = {
     "subdivision": lambda: changed(lit(), subdivided),
     "transparent film": lambda: changed(lit(), without_floor),
     "emission": lambda: changed(Scene(), glowing),
+    "image": lambda: changed(lit(world=1), papered),
     "exposure of the view": lambda: changed(lit(), graded),
     "border": lambda: changed(lit(), bordered),
     "volume": lambda: clouded(Color=(0.9, 0.6, 0.3, 1), Density=3),
@@ -689,6 +707,37 @@ class Exporting(unittest.TestCase):
             self.assertTrue(any(name in text for text in warnings), (name, warnings))
         _, none = lit().export()
         self.assertEqual(none, [])
+
+    def test_images_that_gltf_reads_in_another_way_are_named(self):
+        made = lit()
+        shader, node = image_node(made, 2)
+        tree, image = shader.id_data, node.image
+
+        def warnings(socket, alpha_mode="STRAIGHT", space="sRGB", alpha=0.5, is_linked=False):
+            tree.links.clear()
+            output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+            tree.links.new(shader.outputs[0], output.inputs["Surface"])
+            tree.links.new(node.outputs["Color"], shader.inputs[socket])
+            if is_linked:
+                tree.links.new(node.outputs["Alpha"], shader.inputs["Alpha"])
+            image.colorspace_settings.name, image.alpha_mode = space, alpha_mode
+            image.pixels[:] = [0.5, 0.5, 0.5, alpha] * 4
+            return made.export()[1]
+
+        start = f"material '{made.floor.name}': image 'wood' is rendered with "
+        straight = f"{start}alpha 'Channel Packed', not 'Straight'"
+        ignored = f"{start}alpha 'Channel Packed', not 'None'"
+        self.assertEqual(warnings("Base Color"), [straight])
+        self.assertEqual(warnings("Base Color", is_linked=True), [])
+        self.assertEqual(warnings("Base Color", alpha=1), [])
+        self.assertEqual(warnings("Base Color", "CHANNEL_PACKED"), [])
+        self.assertEqual(warnings("Base Color", "NONE"), [])
+        self.assertEqual(warnings("Base Color", "NONE", is_linked=True), [ignored])
+        encoded = f"{start}color space 'sRGB', not 'Non-Color'"
+        linear = f"{start}color space 'Non-Color', not 'sRGB'"
+        self.assertEqual(warnings("Base Color", space="Non-Color", alpha=1), [encoded])
+        self.assertEqual(warnings("Roughness", alpha=1), [linear])
+        self.assertEqual(warnings("Roughness", space="Non-Color", alpha=1), [])
 
     def test_what_volumes_lose_is_named(self):
         def warnings(make=cloud, grid=None, **inputs):

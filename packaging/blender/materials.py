@@ -1,6 +1,8 @@
 """What Blender's glTF exporter loses of materials, and of objects."""
 
-from .nodes import linked, output_of, tree_of, upstream
+import numpy as np
+
+from .nodes import linked, output_of, source, tree_of, upstream
 
 # Those that the exporter reads
 _NODES = {
@@ -9,6 +11,7 @@ _NODES = {
     "NORMAL_MAP", "OUTPUT_MATERIAL", "RGB", "SEPARATE_COLOR", "SEPRGB", "TEX_COORD", "TEX_IMAGE",
     "UVMAP", "VALUE", "VERTEX_COLOR",
 }
+_DEPTHS_WITH_ALPHA = (32, 64, 128)  # bits of a pixel
 _GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 _INVISIBLE = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
 _SHADOWLESS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission",
@@ -50,7 +53,43 @@ def _check_material(material, warn):
         return
     if linked(output, "Displacement") is not None:
         warn(f"the displacement of material '{material.name}' is not supported; left out")
-    names = [node.name for node in upstream(linked(output, "Surface")) if node.type not in _NODES]
+    nodes = list(upstream(linked(output, "Surface")))
+    names = [node.name for node in nodes if node.type not in _NODES]
     if names:
-        nodes = ", ".join(f"'{name}'" for name in sorted(names))
-        warn(f"material '{material.name}': glTF has no node {nodes}; its default is used")
+        listed = ", ".join(f"'{name}'" for name in sorted(names))
+        warn(f"material '{material.name}': glTF has no node {listed}; its default is used")
+    for name, change in sorted({*_other_alphas(nodes), *_other_spaces(nodes)}):
+        warn(f"material '{material.name}': image '{name}' is rendered with {change}")
+
+
+def _other_alphas(nodes):
+    """Images with other alpha than Cycles has, and what they are rendered with."""
+    for node in nodes:
+        image = node.image if node.type == "TEX_IMAGE" else None
+        if image is None or image.depth not in _DEPTHS_WITH_ALPHA:
+            continue
+        same = ("CHANNEL_PACKED", "STRAIGHT" if node.outputs["Alpha"].is_linked else "NONE")
+        if image.alpha_mode not in same and _is_transparent(image):
+            modes = image.bl_rna.properties["alpha_mode"].enum_items
+            yield image.name, f"alpha 'Channel Packed', not '{modes[image.alpha_mode].name}'"
+
+
+def _is_transparent(image):
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return bool((pixels[3::4] < 1).any())
+
+
+def _other_spaces(nodes):
+    """Images in other colour spaces than glTF has, and what they are rendered with."""
+    for shader in nodes:
+        for socket in shader.inputs if shader.type in ("BSDF_PRINCIPLED", "EMISSION") else ():
+            for node in upstream(source(socket)):
+                image = node.image if node.type == "TEX_IMAGE" else None
+                if image is None or socket.name == "Alpha":
+                    continue
+                space = image.colorspace_settings
+                is_linear = space.is_data or space.name.startswith("Linear")
+                if is_linear if socket.type == "RGBA" else not is_linear:
+                    expected = "sRGB" if socket.type == "RGBA" else "Non-Color"
+                    yield image.name, f"color space '{expected}', not '{space.name}'"
