@@ -489,6 +489,12 @@ class InMemory(unittest.TestCase):
                 candela.render(scene, spp=1, **options)
             self.assertEqual(caught.exception.file, options.get("outfile", "nope.pbrt"))
             self.assertEqual(caught.exception.problems[0].file, caught.exception.file)
+        for call in (candela.load_file, candela.render):
+            with self.assertRaisesRegex(candela.MissingFileError, r"file: `nope.pbrt` \[E0101\]"):
+                call("nope.pbrt")
+        with self.assertRaises(candela.MissingFileError) as caught:
+            candela.run("resume", "nope.film")
+        self.assertEqual(caught.exception.file, "nope.film")
 
     def test_a_command_line_in_one_piece_is_told_how_to_separate_it(self):
         for words in (["compare", "a.exr", "b.exr"], "compare a.exr b.exr", ("compare", "a.exr")):
@@ -499,6 +505,35 @@ class InMemory(unittest.TestCase):
         with self.assertRaises(candela.UsageError) as caught:
             candela.load_dict(mitsuba()).render(sensor="sensor")
         self.assertNotIn("did you mean", str(caught.exception))
+
+    def test_what_is_no_text_of_a_scene_is_told_at_once(self):
+        with self.assertRaisesRegex(TypeError, "takes a text, found b'abc'"):
+            candela.load_string(b"abc")
+        for name in ("scene.xml", "a folder/b.PBRT.gz", "c.glb"):
+            with self.assertRaisesRegex(candela.UsageError, f"`{name}` is .* candela.load_file"):
+                candela.load_string(name)
+        for text in ('Include "a.pbrt"', "# a.pbrt", "Shape\na.pbrt"):
+            self.assertIsInstance(candela.load_string(text), candela.Scene)
+        with self.assertRaisesRegex(candela.SceneError, "the name of the scene is empty"):
+            candela.render("")
+
+    def test_words_are_those_of_the_call(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            scene, film, image = (Path(folder) / name for name in ("a.xml", "a.film", "a.exr"))
+            scene.write_text(XML)
+            candela.run("render", scene, "--spp", 2, "--shard", "0/2", "--outfile", film)
+            with self.assertRaisesRegex(candela.SceneError, "\n --partial merges the others"):
+                candela.run("merge", film, "--outfile", image)
+            command = "`candela merge --partial` merges the others"
+            with self.assertRaisesRegex(candela.SceneError, command):
+                candela.load(film)
+
+    def test_arrays_are_described_by_their_sizes(self):
+        pixels = {"type": "bitmap", "data": np.zeros((3, 4, 3))}
+        scene = candela.load_dict({"type": "scene", "red": {"type": "diffuse", "reflectance": pixels}})
+        self.assertIn(
+            "'red.reflectance.data': an array of 3 × 4 × 3 float64", repr(scene.parameters())
+        )
 
     def test_values_that_the_scene_has_not_are_told_of(self):
         values = candela.load_string(XML).parameters()
@@ -951,6 +986,9 @@ class Images(unittest.TestCase):
             np.testing.assert_array_equal(values.reshape(image.rgb.shape)[::-1], image.rgb)
             for picture in (png.read_bytes(), image._repr_png_()):
                 self.assertTrue(picture.startswith(b"\x89PNG"))
+            npz.write_bytes(npz.read_bytes()[:-100])
+            with self.assertRaisesRegex(candela.CandelaError, "can't read .*x.npz: .*not a zip"):
+                candela.load(npz)
             np.savez(npz, x=np.ones(3))
             with self.assertRaisesRegex(candela.CandelaError, r"candela.Image\(array\)"):
                 candela.load(npz)

@@ -8,7 +8,7 @@ import re
 import sys
 import warnings
 from dataclasses import dataclass, replace
-from typing import Iterable, List, Optional, Tuple
+from typing import Callable, Iterable, List, Optional, Tuple
 
 
 # Of each line of a dict's text: its place, and the number of values if it is a list
@@ -93,6 +93,7 @@ _COUNT = re.compile(r"^(and )?\d+ (more )?errors?$")
 # Words of files and the command line, and those of Python
 _WORDS = {
     "--sensor all renders each, --sensor 1": "sensor=0 renders the first, sensor=1",
+    "--partial merges": "`candela merge --partial` merges",
     ".npz files store linear light": "`image.rgb` is linear light",
 }
 
@@ -128,10 +129,13 @@ def in_python(line: str) -> str:
     return _OPTION.sub(keyword, line)
 
 
-def problems_in(lines: Iterable[str], keys: Optional[Keys] = None) -> List[Problem]:
+def problems_in(
+    lines: Iterable[str], keys: Optional[Keys] = None, in_words: Callable[[str], str] = in_python
+) -> List[Problem]:
     """The problems in the program's messages; the lines below each belong to it.
 
     :param keys: those of the scene, if it is a dict's
+    :param in_words: ``str`` keeps the command line's
     """
     found: List[List[str]] = []
     for line in lines:
@@ -139,7 +143,7 @@ def problems_in(lines: Iterable[str], keys: Optional[Keys] = None) -> List[Probl
             found.append([line])
         elif _BELOW.match(line) and found:
             found[-1].append(line)
-    return [_problem([in_python(line) for line in each], keys) for each in found]
+    return [_problem([in_words(line) for line in each], keys) for each in found]
 
 
 def _problem(lines: List[str], keys: Optional[Keys]) -> Problem:
@@ -183,9 +187,9 @@ _NAMED = re.compile("`([^`]+)`")
 _MISSING = re.compile("^E010[14] |: no such folder: ")
 
 
-def missing(path: str) -> MissingFileError:
-    message = f"no such file or folder: `{path}`"
-    text = f"error: {message} [E0104]"
+def missing(path: str, what: str = "file or folder", number: str = "E0104") -> MissingFileError:
+    message = f"no such {what}: `{path}`"
+    text = f"error: {message} [{number}]"
     try:
         names = os.listdir(os.path.dirname(path) or ".")
     except OSError:
@@ -193,12 +197,12 @@ def missing(path: str) -> MissingFileError:
     near = difflib.get_close_matches(os.path.basename(path), names, 1)
     if near:
         text += f"\n did you mean `{os.path.join(os.path.dirname(path), near[0])}`?"
-    return MissingFileError(text, (Problem("error", message, text, path, number="E0104"),))
+    return MissingFileError(text, (Problem("error", message, text, path, number=number),))
 
 
-def error_of(code: int, lines: List[str], keys: Optional[Keys] = None) -> CandelaError:
-    """The exception for an exit code and what was printed."""
-    problems = sorted(problems_in(lines, keys), key=lambda p: p.severity)
+def error_of(code: int, lines: List[str], problems: List[Problem]) -> CandelaError:
+    """The exception for an exit code and what was printed, with its problems."""
+    problems = sorted(problems, key=lambda p: p.severity)
     errors = [p.text for p in problems if p.severity == "error"]
     message = "\n".join(errors) or "\n".join(lines[-20:])
     kind = {1: SceneError, 2: UsageError}.get(code, InternalError)

@@ -221,7 +221,7 @@ def load(path: PathLike) -> Image:
     source = os.fspath(path)
     if not os.path.exists(source):
         raise missing(source)
-    if not zipfile.is_zipfile(source):
+    if not source.lower().endswith(".npz"):
         from ._session import execute
 
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
@@ -229,16 +229,19 @@ def load(path: PathLike) -> Image:
             command = "merge" if source.lower().endswith(".film") else "image"
             warn(execute([command, source, "--outfile", str(arrays)])[1])
             return load(arrays)
-    with zipfile.ZipFile(source) as archive:
-        if "metadata.json" not in archive.namelist():
-            advice = "candela.Image(array) makes an image of an array of numpy.load"
-            raise CandelaError(f"{source} is no image of `Image.save`: {advice}")
-        about = json.loads(archive.read("metadata.json"))
-        layers = {
-            name[: -len(".npy")]: _array(archive.read(name))
-            for name in archive.namelist()
-            if name.endswith(".npy")
-        }
+    try:
+        with zipfile.ZipFile(source) as archive:
+            if "metadata.json" not in archive.namelist():
+                advice = "candela.Image(array) makes an image of an array of numpy.load"
+                raise CandelaError(f"{source} is no image of `Image.save`: {advice}")
+            about = json.loads(archive.read("metadata.json"))
+            layers = {
+                name[: -len(".npy")]: _array(archive.read(name))
+                for name in archive.namelist()
+                if name.endswith(".npy")
+            }
+    except (zipfile.BadZipFile, OSError) as e:
+        raise CandelaError(f"can't read {source}: {e}") from e
     window = tuple(about["window"]) if "window" in about else None
     return Image(layers, about["texts"], about["channels"], window)
 

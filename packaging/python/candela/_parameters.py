@@ -134,7 +134,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         return len(self._all())
 
     def __repr__(self) -> str:
-        lines = [f"  {key!r}: {value!r}" for key, value in self.items()]
+        texts = {k: described(v) if hasattr(v, "shape") else repr(v) for k, v in self.items()}
+        lines = [f"  {key!r}: {text}" for key, text in texts.items()]
         return "\n".join(["candela.Parameters:", *lines])
 
 

@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
 from . import _files, _xml
-from ._errors import CandelaError, Keys, Problem, SceneError, UsageError, missing
+from ._errors import (
+    CandelaError, Keys, MissingFileError, Problem, SceneError, UsageError, missing,
+)
 from ._parameters import Parameters
+from ._values import described
 
 if TYPE_CHECKING:
     from ._image import Image
 
 PathLike = Union[str, "os.PathLike[str]"]
+
+
+def _missing(path: str) -> MissingFileError:
+    return missing(path, "scene file", "E0101")
 
 
 class Scene:
@@ -89,14 +97,14 @@ class Scene:
             with open(self._name, encoding="utf-8") as file:
                 return file.read()
         except FileNotFoundError:
-            raise missing(self._name) from None
+            raise _missing(self._name) from None
         except UnicodeDecodeError:
             raise UsageError(f"{self._name} is no text in UTF-8") from None
 
     def read(self) -> None:
         """Reads the file, if it is Mitsuba's; what can't be read is told where it is rendered."""
         if not os.path.exists(self._name):
-            raise missing(self._name)
+            raise _missing(self._name)
         if self._name.lower().endswith(".xml"):
             try:
                 self._text = self._whole()
@@ -197,8 +205,16 @@ def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:
 
     :param folder: of the files that it names, instead of the current one
     """
+    if not isinstance(text, str):
+        raise TypeError(f"load_string takes a text, found {described(text)}")
+    if _FILE_NAME.fullmatch(text):
+        raise UsageError(f"`{text}` is the name of a file: candela.load_file reads it")
     name = "scene.xml" if text.lstrip("\ufeff \t\r\n").startswith("<") else "scene.pbrt"
     return Scene(name if folder is None else os.path.join(os.fspath(folder), name), text)
+
+
+# No scene consists of this
+_FILE_NAME = re.compile(r"[^\n\"<#]+\.(pbrt|xml|gltf|glb|obj|ply|stl)(\.gz)?", re.I)
 
 
 def load_file(path: PathLike) -> Scene:

@@ -189,7 +189,8 @@ class Session:
                 answer = self._answer()
                 if "message" in answer:
                     messages.append(answer["message"])
-                    _print_note(messages[-1])
+                    if is_note(messages[-1]):
+                        print(in_python(messages[-1]), file=sys.stderr, flush=True)
                 elif "code" in answer:
                     return answer["code"], answer["output"], messages
                 elif progress is not None:
@@ -232,12 +233,6 @@ class Session:
             self._errors.seek(0)
             self._printed = self._errors.read().decode("utf-8", "replace").strip()
             self._errors.close()
-
-
-def _print_note(line: str) -> None:
-    """Of what tells of no problem."""
-    if is_note(line):
-        print(in_python(line), file=sys.stderr, flush=True)
 
 
 def _key() -> Tuple[str, Optional[str]]:
@@ -325,9 +320,10 @@ def execute(
         request["image"] = str(image)
     with _lock:
         code, output, messages = session().run(request, progress)
+    problems = problems_in(messages, keys)
     if code != 0:
-        raise error_of(code, messages, keys)
-    return output, problems_in(messages, keys)
+        raise error_of(code, messages, problems)
+    return output, problems
 
 
 def run(*words: Any) -> str:
@@ -375,11 +371,12 @@ def run(*words: Any) -> str:
             if stream is not None:
                 stream.close()
     messages = outputs["err"].splitlines()
+    problems = problems_in(messages, in_words=str)
     if child.returncode != 0:
-        raise error_of(child.returncode, messages)
-    for line in messages:
-        _print_note(line)
-    warn(problems_in(messages))
+        raise error_of(child.returncode, messages, problems)
+    for line in filter(is_note, messages):
+        print(line, file=sys.stderr)
+    warn(problems)
     return outputs["out"]
 
 

@@ -69,24 +69,24 @@ object SceneName:
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =
+    def fail(message: String, help: Option[String] = None) =
+      throw SceneError(Problem.general(Code.NoSuchScene, message, help))
+    if scene.isEmpty then fail("the name of the scene is empty")
     val file =
       try Path.of(scene)
       catch
         case e: InvalidPathException =>
-          throw SceneError(Problem.general(
-            Code.NoSuchScene,
-            s"`$scene` is not a valid file name: ${e.getReason}"
-          ))
+          fail(s"`$scene` is not a valid file name: ${e.getReason}")
     if Files.isDirectory(file) then
       val scenes = scenesIn(file)
       val help =
         Option.when(scenes.nonEmpty)(scenes.mkString("name a scene file in it: ", ", ", ""))
-      throw SceneError(Problem.general(Code.NoSuchScene, s"`$scene` is a folder", help))
+      fail(s"`$scene` is a folder", help)
     else if !Files.exists(file) then
       val folder = Option(file.toAbsolutePath.getParent)
       val nearest = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
       val help = nearest.map(name => s"did you mean `${file.resolveSibling(name)}`?")
-      throw SceneError(Problem.general(Code.NoSuchScene, s"no such scene file: `$scene`", help))
+      fail(s"no such scene file: `$scene`", help)
     else file
 
   private def scenesIn(folder: Path): Vector[String] =

@@ -56,6 +56,7 @@ class MainSuite extends AnyFunSuite:
         s"error: `$folder` is a folder [E0101]",
         " name a scene file in it: a.pbrt, b.pbrt"
       ))
+    assert(run("")._2.err == "error: the name of the scene is empty [E0101]\n")
 
   test("a mistake in a scene exits with 1 and is shown in its place"):
     TempFolder.use: folder =>
