@@ -47,11 +47,11 @@ private[candela] final class Subpath(
         if carriesLight && !bounce.isSpecular && !vertex.bsdf.isReciprocal then
           vertex.sent(wi) * (Math.abs(bounce.wi.z) / bounce.pdf)
         else if compresses then bounce.weight * square(bounce.eta)
-        else bounce.weight
+        else bounce.weight.toRgb
       throughput = throughput *
         (if carriesLight && !vertex.isInMedium then
            powerWeight * correction(vertex, wi, bounce.wi.z)
-         else bounce.weight)
+         else bounce.weight.toRgb)
       if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
       if bounce.isSpecular then weights.scatterSpecular(cosine)

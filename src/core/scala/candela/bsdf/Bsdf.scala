@@ -121,7 +121,7 @@ final class Bounce:
   def wi: MutableVec3 = ownWi
 
   /** f·|cos θi|/pdf; black ends the path. */
-  def weight: Rgb = ownWeight.toRgb
+  def weight: MutableRgb = ownWeight
 
   /** With respect to solid angle; for a specular direction the probability of its choice. */
   def pdf: Float = ownPdf
@@ -146,7 +146,7 @@ final class Bounce:
 
   def copyFrom(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
 
-  def toSample: BsdfSample = BsdfSample(wi.toVec3, weight, pdf, isSpecular, eta)
+  def toSample: BsdfSample = BsdfSample(wi.toVec3, weight.toRgb, pdf, isSpecular, eta)
 
 /** Base of BSDFs that sample without allocation; covers most surfaces. */
 abstract class LeanBsdf extends Bsdf:

@@ -41,8 +41,7 @@ final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     inner.draw(frame.toLocal(wo), choice, u1, u2, out)
-    val wi = frame.toWorld(out.wi.toVec3)
-    out.set(wi, out.weight, out.pdf, out.isSpecular, out.eta)
+    out.wi.set(frame.toWorld(out.wi.toVec3))
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     val s = inner.sampleSpecular(frame.toLocal(wo), choice)

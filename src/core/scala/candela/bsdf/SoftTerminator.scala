@@ -110,8 +110,8 @@ final class SoftTerminator(
     val shadowing = passed(wi)
     if shadowing == 0f || isTurned && !turns then out.absorb()
     else
-      val outerWi = if isTurned then turned(wi) else wi
-      out.set(outerWi, out.weight * shadowing, out.pdf, out.isSpecular, out.eta)
+      out.wi.set(if isTurned then turned(wi) else wi)
+      out.scale(shadowing)
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     val isTurned = isAway(wo)

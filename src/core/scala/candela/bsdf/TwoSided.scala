@@ -27,10 +27,7 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
     val side = if wo.z > 0f then front else back
     side.draw(Hemisphere.above(wo), choice, u1, u2, out)
     val upper = out.wi.toVec3
-    if upper.z > 0f then
-      val wi = Hemisphere.seenFrom(wo, upper)
-      out.set(wi, out.weight, out.pdf, out.isSpecular, out.eta)
-    else out.absorb()
+    if upper.z > 0f then out.wi.set(Hemisphere.seenFrom(wo, upper)) else out.absorb()
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     val s = (if wo.z > 0f then front else back).sampleSpecular(Hemisphere.above(wo), choice)

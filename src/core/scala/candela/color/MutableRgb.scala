@@ -4,15 +4,21 @@ package candela.color
 final class MutableRgb:
   var r, g, b = 0f
 
-  def set(c: Rgb): Unit =
-    r = c.r
-    g = c.g
-    b = c.b
+  def set(c: Rgb): Unit = set(c.r, c.g, c.b)
+  def set(c: MutableRgb): Unit = set(c.r, c.g, c.b)
 
-  def add(c: Rgb): Unit =
-    r += c.r
-    g += c.g
-    b += c.b
+  def set(red: Float, green: Float, blue: Float): Unit =
+    r = red
+    g = green
+    b = blue
+
+  def add(c: Rgb): Unit = add(c.r, c.g, c.b)
+  def add(c: MutableRgb): Unit = add(c.r, c.g, c.b)
+
+  def add(red: Float, green: Float, blue: Float): Unit =
+    r += red
+    g += green
+    b += blue
 
   /** Adds a · c. */
   def addProduct(a: MutableRgb, c: MutableRgb): Unit =
@@ -26,10 +32,14 @@ final class MutableRgb:
     g += a.g * c.g * weight
     b += a.b * c.b * weight
 
-  def scale(c: Rgb): Unit =
-    r *= c.r
-    g *= c.g
-    b *= c.b
+  def scale(c: Rgb): Unit = scale(c.r, c.g, c.b)
+
+  def scale(c: MutableRgb): Unit = scale(c.r, c.g, c.b)
+
+  private def scale(red: Float, green: Float, blue: Float): Unit =
+    r *= red
+    g *= green
+    b *= blue
 
   def scale(s: Float): Unit =
     r *= s

@@ -1,5 +1,6 @@
 package candela.geometry
 
+import candela.color.MutableRgb
 import candela.math.*
 
 /** A surface interaction: the hit point, with the geometry that textures, materials and lights
@@ -18,6 +19,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
   private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = MutableVec3()
   private val ownBendU, ownBendV = MutableVec3()
+
+  /** Scratch memory of image textures. */
+  private[candela] val texel = MutableRgb()
 
   /** Scratch memory of triangles. */
   private[candela] val firstEdge, secondEdge = MutableVec3()

@@ -80,14 +80,14 @@ class DirectLighting(
         else
           val source = scene.surfaceLight(emitter)
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, emitter))
-          bounce.weight * attenuated(source.radiance(emitter, -wi)) * (weight / chosen)
+          bounce.weight.toRgb * attenuated(source.radiance(emitter, -wi)) * (weight / chosen)
       else
         val index = scene.environmentIndex.indexOf(connection.index)
         if index < 0 then Rgb.Black
         else
           val source = scene.environments(index)
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, wi))
-          bounce.weight * attenuated(source.radiance(p, wi)) * (weight / chosen)
+          bounce.weight.toRgb * attenuated(source.radiance(p, wi)) * (weight / chosen)
 
   /** Finds the surface that light from the sampled direction left last. */
   private def meetsSurface(): Boolean =

@@ -59,8 +59,8 @@ class PathExtension:
   /** Factor of the light sample at a surface. */
   def sampleFactor(localWi: Vec3): Float = 1f
 
-  /** The path carries `Ld` of the light sample. */
-  def recordSample(Ld: Rgb): Unit = ()
+  /** The path carries the connection's `arrived` of the light sample. */
+  def recordSample(): Unit = ()
 
   /** Adds caustics that the vertex scatters to the path. */
   def addCaustics(): Unit = ()

@@ -61,6 +61,7 @@ abstract class PathState:
 
   /** Multiplies the throughput by f·|cos|/p, or by what stands for it. */
   def scale(factor: Rgb): Unit
+  def scale(factor: MutableRgb): Unit
   def scale(factor: Float): Unit
 
   /** Ends the path: its throughput becomes 0. */
@@ -132,6 +133,7 @@ final class SurfacePath extends PathState:
 
   def throughput: Rgb = beta.toRgb
   def scale(factor: Rgb): Unit = beta.scale(factor)
+  def scale(factor: MutableRgb): Unit = beta.scale(factor)
   def scale(factor: Float): Unit = beta.scale(factor)
   def absorb(): Unit = beta.set(Rgb.Black)
   def isBlack: Boolean = beta.isBlack
@@ -170,7 +172,7 @@ final class SurfacePath extends PathState:
   override def set(from: PathState): Unit =
     super.set(from)
     val source = from.asInstanceOf[SurfacePath]
-    beta.set(source.throughput)
+    beta.set(source.beta)
     alone = source.alone
     bsdfPdf = source.bsdfPdf
 
@@ -190,6 +192,7 @@ final class VolumePath(val weights: PathWeights = PathWeights()) extends PathSta
 
   def throughput: Rgb = weights.throughput
   def scale(factor: Rgb): Unit = weights.scale(factor)
+  def scale(factor: MutableRgb): Unit = weights.scale(factor)
   def scale(factor: Float): Unit = weights.scale(factor)
   def absorb(): Unit = weights.scale(0f)
   def isBlack: Boolean = weights.isDead

@@ -130,8 +130,8 @@ private final class PathTechniques(
     if weights == null || history.densityRatio == 0.0 || path.depth == 1 then 1f
     else weights.ofSample(connection, vertex, localWi, tracer.ray, hit, history)
 
-  override def recordSample(Ld: Rgb): Unit =
-    if parts != null then parts.addLight(connection.index, path.depth, Ld)
+  override def recordSample(): Unit =
+    if parts != null then parts.addLight(connection.index, path.depth, connection.arrived.toRgb)
 
   override def addCaustics(): Unit =
     if photons != null then tracer.L.add(path.carried(photons.reflected(vertex, history)))

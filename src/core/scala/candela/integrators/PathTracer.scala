@@ -68,8 +68,9 @@ final class PathTracer private (
               )
             then
               connection.arrived.scale(extension.sampleFactor(connection.localWi))
-              L.addProduct(beta, connection.arrived)
-              extension.recordSample(beta.toRgb * connection.arrived.toRgb)
+              connection.arrived.scale(beta)
+              L.add(connection.arrived)
+              extension.recordSample()
             extension.addCaustics()
             // Sample the BSDF for the next direction
             if !extension.sampleDirectionInstead(sampler) then

@@ -98,8 +98,9 @@ abstract class SurfaceWalk(
     if connection.computeArrived(vertex, weight) then addArrived()
 
   protected final def addArrived(): Unit =
-    L.addProduct(surfacePath.beta, connection.arrived)
-    extension.recordSample(path.throughput * connection.arrived.toRgb)
+    connection.arrived.scale(surfacePath.beta)
+    L.add(connection.arrived)
+    extension.recordSample()
 
   /** Adds light that leaves the vertex towards the path. */
   protected final def addScattered(radiance: Rgb): Unit = L.add(path.throughput * radiance)

@@ -176,8 +176,9 @@ final class VolumePathTracer private (
         addSample(arriving * f * (Math.abs(localWi.z) * extension.sampleFactor(localWi)))
 
   private def addSample(Ld: Rgb): Unit =
+    connection.arrived.set(Ld)
     L.add(Ld)
-    extension.recordSample(Ld)
+    extension.recordSample()
 
   /** What arrives of the light sample, over its density, times the path's throughput and the weight
     * of multiple importance sampling. Both densities are in units of the path's own, and averages

@@ -1,6 +1,6 @@
 package candela.media
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
 /** Weights of a path through media, in three colours. Mutable, one per worker and purpose.
@@ -87,6 +87,7 @@ final class PathWeights:
     setLight(lr + (lg + lb), 0f, 0f)
 
   def scale(c: Rgb): Unit = scale(c.r, c.g, c.b)
+  def scale(c: MutableRgb): Unit = scale(c.r, c.g, c.b)
   def scale(s: Float): Unit = scale(s, s, s)
 
   inline def scale(sr: Float, sg: Float, sb: Float): Unit =

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.Rgb
+import candela.color.MutableRgb
 import candela.math.*
 
 /** Elliptically weighted average (EWA): filters texels with a Gaussian over the footprint's
@@ -18,14 +18,22 @@ final class EwaLookup(
     turned: Boolean
 ) extends FilteredLookup(pyramid, bottomUp, turned):
 
-  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+  def addFiltered(
+      s: Float,
+      y: Float,
+      dsdx: Float,
+      dydx: Float,
+      dsdy: Float,
+      dydy: Float,
+      sum: MutableRgb
+  ): Unit =
     val lengthX = sqrt(square(dsdx) + square(dydx))
     val lengthY = sqrt(square(dsdy) + square(dydy))
     val major = Math.max(lengthX, lengthY)
     val minor = Math.min(lengthX, lengthY)
     val widening =
       if minor > 0f && minor * maxAnisotropy < major then major / (minor * maxAnisotropy) else 1f
-    if minor == 0f then pyramid(0).bilinear(s, y)
+    if minor == 0f then pyramid(0).addBilinear(s, y, 1f, sum)
     else
       val widenX = if lengthX < lengthY then widening else 1f
       val widenY = if lengthX < lengthY then 1f else widening
@@ -34,16 +42,13 @@ final class EwaLookup(
       val bx = dsdy * widenY
       val by = dydy * widenY
       val lod = Math.max(0f, lastLevel + log2(minor * widening))
-      if lod >= lastLevel then top
+      if lod >= lastLevel then addTop(sum)
       else
         val finerLevel = lod.toInt
         val fraction = lod - finerLevel
-        val finer = EwaLookup.average(pyramid(finerLevel), s, y, ax, ay, bx, by)
-        if fraction == 0f then finer
-        else finer * (1f - fraction) + coarser(finerLevel + 1, s, y, ax, ay, bx, by) * fraction
-
-  private def coarser(i: Int, s: Float, y: Float, ax: Float, ay: Float, bx: Float, by: Float) =
-    EwaLookup.average(pyramid(i), s, y, ax, ay, bx, by)
+        EwaLookup.addAverage(pyramid(finerLevel), s, y, ax, ay, bx, by, 1f - fraction, sum)
+        if fraction > 0f then
+          EwaLookup.addAverage(pyramid(finerLevel + 1), s, y, ax, ay, bx, by, fraction, sum)
 
 object EwaLookup:
 
@@ -52,18 +57,20 @@ object EwaLookup:
   private val weights = Array.tabulate(Steps): i =>
     (Math.exp(-2.0 * i / (Steps - 1)) - Math.exp(-2.0)).toFloat
 
-  /** Average over the ellipse spanned by (`ax`, `ay`) and (`bx`, `by`), widened by one texel so
-    * that it is never empty.
+  /** Adds the average over the ellipse spanned by (`ax`, `ay`) and (`bx`, `by`), times `factor`, to
+    * `sum`. The ellipse is widened by one texel so that it is never empty.
     */
-  private[textures] def average(
+  private[textures] def addAverage(
       level: MipLevel,
       s: Float,
       row: Float,
       ax: Float,
       ay: Float,
       bx: Float,
-      by: Float
-  ): Rgb =
+      by: Float,
+      factor: Float,
+      sum: MutableRgb
+  ): Unit =
     val w = level.width.toFloat
     val h = level.height.toFloat
     val x = MipLevel.clampCoordinate(s * w - 0.5f)
@@ -84,7 +91,7 @@ object EwaLookup:
     // Where Floats lie farther apart than texels, at least the texel itself
     val x0 = Math.min(MipLevel.floor(x - reachX) + 1, MipLevel.floor(x))
     val texels = level.reader
-    var sum, red, green, blue = 0f
+    var weightSum, red, green, blue = 0f
     var iy = Math.min(MipLevel.floor(y - reachY) + 1, MipLevel.floor(y))
     while iy <= y1 do
       val dy = iy - y
@@ -95,12 +102,14 @@ object EwaLookup:
         if r2 < 1f then
           val weight = weights(Math.min((r2 * Steps).toInt, Steps - 1))
           val texel = level.index(ix, iy)
-          sum += weight
+          weightSum += weight
           red += weight * texels(texel, 0)
           if !level.isGray then
             green += weight * texels(texel, 1)
             blue += weight * texels(texel, 2)
         ix += 1
       iy += 1
-    val scale = 1f / sum
-    if level.isGray then Rgb.gray(red * scale) else Rgb(red * scale, green * scale, blue * scale)
+    val scale = 1f / weightSum
+    val r = red * scale * factor
+    if level.isGray then sum.add(r, r, r)
+    else sum.add(r, green * scale * factor, blue * scale * factor)

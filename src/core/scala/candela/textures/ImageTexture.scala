@@ -1,14 +1,14 @@
 package candela.textures
 
 import candela.base.loop
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.geometry.ShadingPoint
 import candela.math.*
 
 /** Float image texture: scale·v, or 1 − scale·v (clamped to at least 0) if `invert`. */
 final class FloatImageTexture(
     mapping: Mapping2D,
-    lookup: ImageLookup,
+    lookup: FilteredLookup,
     scale: Float = 1f,
     invert: Boolean = false
 ) extends FloatTexture:
@@ -32,7 +32,7 @@ final class FloatImageTexture(
 /** Colour image texture, with `scale` and `invert` as for [[FloatImageTexture]]. */
 final class RgbImageTexture(
     mapping: Mapping2D,
-    lookup: ImageLookup,
+    lookup: FilteredLookup,
     scale: Float = 1f,
     invert: Boolean = false
 ) extends RgbTexture:
@@ -48,39 +48,37 @@ private object ImageTexture:
     val scaled = value * scale
     if invert then Math.max(0f, 1f - scaled) else scaled
 
-/** Texel lookup in the unit square: s to the right, and t up from the image's last row if
-  * `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2, EXR).
+/** Texel lookup in the unit square, filtered over the footprint of a sample with a MIP map.
+  *
+  * @param bottomUp whether t goes up from the image's last row, as in pbrt-v3 and v4 (and v2 for
+  *                 TGA files), else down from its first (v2, EXR)
+  * @param turned   whether the t derivatives point up in the image, as t does; pbrt-v4 omits to
+  *                 flip them with t
   */
-abstract class ImageLookup(bottomUp: Boolean):
-  def color(mapping: Mapping2D, at: ShadingPoint): Rgb
+abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolean):
+  protected final val lastLevel: Int = pyramid.size - 1
+  private val down = if bottomUp && turned then -1f else 1f
+
+  final def color(mapping: Mapping2D, at: ShadingPoint): Rgb = lookUp(mapping, at).toRgb
 
   /** Value of a single-channel image. */
-  final def value(mapping: Mapping2D, at: ShadingPoint): Float = color(mapping, at).r
+  final def value(mapping: Mapping2D, at: ShadingPoint): Float = lookUp(mapping, at).r
+
+  private def lookUp(mapping: Mapping2D, at: ShadingPoint): MutableRgb =
+    val c = mapping(at)
+    val f = mapping.footprint(at)
+    val sum = at.texel
+    sum.set(0f, 0f, 0f)
+    addFiltered(c.s, row(c.t), f.dsdx, f.dtdx * down, f.dsdy, f.dtdy * down, sum)
+    sum
 
   /** Derivatives by s and t of an image that has one level of detail, and a single channel. */
   def slopes(c: TexCoord): Slopes | Null = null
 
-  /** The largest value of each channel. */
-  def maximum: Rgb
-
   /** Distance from the image's upper edge, as a fraction of its height. */
   protected final def row(t: Float): Float = if bottomUp then 1f - t else t
 
-/** Lookup filtered over the footprint of a sample, with a MIP map.
-  *
-  * @param turned whether the t derivatives point up in the image, as t does; pbrt-v4 omits to flip
-  *   them with t
-  */
-abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolean)
-    extends ImageLookup(bottomUp):
-  protected final val lastLevel: Int = pyramid.size - 1
-  private val down = if bottomUp && turned then -1f else 1f
-
-  final def color(mapping: Mapping2D, at: ShadingPoint): Rgb =
-    val c = mapping(at)
-    val f = mapping.footprint(at)
-    filtered(c.s, row(c.t), f.dsdx, f.dtdx * down, f.dsdy, f.dtdy * down)
-
+  /** The largest value of each channel. */
   final def maximum: Rgb =
     val image = pyramid(0)
     val reader = image.reader
@@ -95,17 +93,30 @@ abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolea
   /** Filters around a point, over the parallelogram of the two steps (`dsdx`, `dydx`) and (`dsdy`,
     * `dydy`).
     */
-  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb
+  final def filtered(
+      s: Float,
+      y: Float,
+      dsdx: Float,
+      dydx: Float,
+      dsdy: Float,
+      dydy: Float
+  ): Rgb =
+    val sum = MutableRgb()
+    addFiltered(s, y, dsdx, dydx, dsdy, dydy, sum)
+    sum.toRgb
 
-  protected final def top: Rgb = pyramid(lastLevel).nearest(0f, 0f)
+  /** Adds [[filtered]] to `sum`. */
+  def addFiltered(
+      s: Float,
+      y: Float,
+      dsdx: Float,
+      dydx: Float,
+      dsdy: Float,
+      dydy: Float,
+      sum: MutableRgb
+  ): Unit
 
-  protected final def trilinear(level: Float, s: Float, y: Float): Rgb =
-    val finerLevel = level.toInt
-    val fraction = level - finerLevel
-    pyramid(finerLevel).bilinear(
-      s,
-      y
-    ) * (1f - fraction) + pyramid(finerLevel + 1).bilinear(s, y) * fraction
+  protected final def addTop(sum: MutableRgb): Unit = pyramid(lastLevel).addNearest(0f, 0f, sum)
 
   /** MIP level whose texels match the footprint's larger extent. */
   protected final def levelOf(width: Float): Float = lastLevel + log2(Math.max(width, 1e-8f))
@@ -126,12 +137,20 @@ final class LevelLookup(
       val imageSlopes = pyramid(0).slopes(c.s, row(c.t))
       if bottomUp then Slopes(imageSlopes.byU, -imageSlopes.byV) else imageSlopes
 
-  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+  def addFiltered(
+      s: Float,
+      y: Float,
+      dsdx: Float,
+      dydx: Float,
+      dsdy: Float,
+      dydy: Float,
+      sum: MutableRgb
+  ): Unit =
     val level = levelOf(2f * Footprint.extent(dsdx, dydx, dsdy, dydy))
-    if level >= lastLevel then top
+    if level >= lastLevel then addTop(sum)
     else
       val chosen = pyramid(if level > 0f then level.toInt else 0)
-      if interpolates then chosen.bilinear(s, y) else chosen.nearest(s, y)
+      if interpolates then chosen.addBilinear(s, y, 1f, sum) else chosen.addNearest(s, y, sum)
 
 /** Trilinear filtering: interpolates the two MIP levels nearest to the footprint's largest extent.
   *
@@ -147,11 +166,23 @@ final class TrilinearLookup(
 ) extends FilteredLookup(pyramid, bottomUp, turned):
   private val blendsFrom = if fromSecond then 1f else 0f
 
-  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+  def addFiltered(
+      s: Float,
+      y: Float,
+      dsdx: Float,
+      dydx: Float,
+      dsdy: Float,
+      dydy: Float,
+      sum: MutableRgb
+  ): Unit =
     val level = levelOf(factor * Footprint.extent(dsdx, dydx, dsdy, dydy))
-    if level >= lastLevel then top
-    else if level < blendsFrom then pyramid(0).bilinear(s, y)
-    else trilinear(level, s, y)
+    if level >= lastLevel then addTop(sum)
+    else if level < blendsFrom then pyramid(0).addBilinear(s, y, 1f, sum)
+    else
+      val finerLevel = level.toInt
+      val fraction = level - finerLevel
+      pyramid(finerLevel).addBilinear(s, y, 1f - fraction, sum)
+      pyramid(finerLevel + 1).addBilinear(s, y, fraction, sum)
 
 private object Footprint:
   def extent(dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Float =

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
 /** Reads texels of a level by their index. */
@@ -31,8 +31,16 @@ abstract class MipLevel(final val width: Int, final val height: Int, final val i
   final def nearest(s: Float, row: Float): Rgb =
     texel(index(MipLevel.floor(s * width), MipLevel.floor(row * height)))
 
+  final def addNearest(s: Float, row: Float, sum: MutableRgb): Unit = sum.add(nearest(s, row))
+
   /** Bilinear interpolation of the four nearest texels. */
-  def bilinear(s: Float, row: Float): Rgb =
+  final def bilinear(s: Float, row: Float): Rgb =
+    val sum = MutableRgb()
+    addBilinear(s, row, 1f, sum)
+    sum.toRgb
+
+  /** Adds [[bilinear]] times `weight` to `sum`. */
+  def addBilinear(s: Float, row: Float, weight: Float, sum: MutableRgb): Unit =
     val x = MipLevel.clampCoordinate(s * width - 0.5f)
     val y = MipLevel.clampCoordinate(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
@@ -43,13 +51,11 @@ abstract class MipLevel(final val width: Int, final val height: Int, final val i
     val i10 = index(x0 + 1, y0)
     val i01 = index(x0, y0 + 1)
     val i11 = index(x0 + 1, y0 + 1)
-    if isGray then Rgb.gray(blend(i00, i10, i01, i11, 0, dx, dy))
+    val r = weight * blend(i00, i10, i01, i11, 0, dx, dy)
+    if isGray then sum.add(r, r, r)
     else
-      Rgb(
-        blend(i00, i10, i01, i11, 0, dx, dy),
-        blend(i00, i10, i01, i11, 1, dx, dy),
-        blend(i00, i10, i01, i11, 2, dx, dy)
-      )
+      val g = weight * blend(i00, i10, i01, i11, 1, dx, dy)
+      sum.add(r, g, weight * blend(i00, i10, i01, i11, 2, dx, dy))
 
   /** Derivatives of the first channel of [[bilinear]], by `s` and `row`. */
   def slopes(s: Float, row: Float): Slopes =

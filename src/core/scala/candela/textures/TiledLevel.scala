@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
 /** An image in tiles, of which a [[TileMemory]] holds some. */
@@ -115,28 +115,29 @@ private[textures] final class TiledLevel(
         if memory.isStill(slot, stamp) then color else super.texel(index)
 
   /** As of any level, at once if the four texels are in one tile that is there. */
-  override def bilinear(s: Float, row: Float): Rgb =
+  override def addBilinear(s: Float, row: Float, weight: Float, sum: MutableRgb): Unit =
     val x = MipLevel.clampCoordinate(s * width - 0.5f)
     val y = MipLevel.clampCoordinate(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
     val y0 = MipLevel.floor(y)
     val isInside = x0 >= 0 && y0 >= 0 && x0 < width - 1 && y0 < height - 1 &&
       (x0 & inRow) != inRow && (y0 & inColumn) != inColumn
-    if !isInside then super.bilinear(s, row)
+    if !isInside then super.addBilinear(s, row, weight, sum)
     else
       val tile = start + (y0 >> down) * tiles + (x0 >> across)
       val slot = image.slot(tile)
       val stamp = if slot < 0 then 0L else memory.stamp(slot)
-      if TileMemory.holder(stamp) != image.number(tile) then super.bilinear(s, row)
+      if TileMemory.holder(stamp) != image.number(tile) then super.addBilinear(s, row, weight, sum)
       else
         val ints = memory.ints(slot)
         val k = base + ((y0 & inColumn) << across | x0 & inRow) * channels
         val dx = x - x0
         val dy = y - y0
-        val color =
-          if isGray then Rgb.gray(blend(ints, k, dx, dy))
-          else Rgb(blend(ints, k, dx, dy), blend(ints, k + 1, dx, dy), blend(ints, k + 2, dx, dy))
-        if memory.isStill(slot, stamp) then color else super.bilinear(s, row)
+        val r = weight * blend(ints, k, dx, dy)
+        val g = if isGray then r else weight * blend(ints, k + 1, dx, dy)
+        val b = if isGray then r else weight * blend(ints, k + 2, dx, dy)
+        if memory.isStill(slot, stamp) then sum.add(r, g, b)
+        else super.addBilinear(s, row, weight, sum)
 
   private def blend(ints: Array[Int], k: Int, dx: Float, dy: Float): Float =
     val below = k + (channels << across)

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 import candela.testing.Draws
 import org.scalatest.funsuite.AnyFunSuite
@@ -70,7 +70,9 @@ class FilteredLookupSuite extends AnyFunSuite:
       val (ax, ay) = (length * cos(angle), length * sin(angle))
       val (bx, by) = (-width * sin(angle), width * cos(angle))
       val (s, t) = (draws.unit(), draws.unit())
-      val v = EwaLookup.average(level, s, t, ax, ay, bx, by).r
+      val average = MutableRgb()
+      EwaLookup.addAverage(level, s, t, ax, ay, bx, by, 1f, average)
+      val v = average.r
       var (sum, weights) = (0.0, 0.0)
       for i <- -20 to 20; j <- -20 to 20 do
         val (x, y) = (i / 20f, j / 20f)

@@ -9,6 +9,8 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
+import scala.annotation.unused
+
 /** A Lambertian base under a clear coat, with all interreflection between them.
   *
   * The base scatters uniformly, so the sum over all paths separates: transmission along `wo`, a
@@ -19,9 +21,7 @@ import candela.textures.{RgbTexture, Textured}
   * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every
   * evaluation; `CoatedDiffuseSuite` checks against such a walk.
   *
-  * @param series albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
-  * @param sampledSeries the same for sampled directions, which may have one reflection fewer: see
-  *               [[LayerMedium.sampledBaseHits]]
+  * @param series of the base's reflections
   * @param top    roughness of the outer interface
   * @param coat   transmittance and internal reflectance; its roughness may differ slightly from
   *               `top`
@@ -32,8 +32,7 @@ import candela.textures.{RgbTexture, Textured}
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
 final class CoatedDiffuse(
-    series: Coat => Rgb,
-    sampledSeries: Coat => Rgb,
+    series: BaseSeries,
     top: MicrofacetDistribution,
     coat: Coat,
     gloss: Rgb = Rgb.White,
@@ -41,27 +40,31 @@ final class CoatedDiffuse(
 ) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
-  private val base = scaledBase(series)
-  private val sampledBase = if sampledSeries eq series then base else scaledBase(sampledSeries)
+  private val scale = InvPi / (eta * eta)
+  private val fullSeries = series.full(coat)
+  private val base = fullSeries * scale
+  private val sampledBase =
+    val sampledSeries = series.sampled(coat, fullSeries)
+    if sampledSeries eq fullSeries then base else sampledSeries * scale
   private val meanBase = base.max * Pi * coat.meanTransmittance
 
-  private def scaledBase(series: Coat => Rgb): Rgb = series(coat) * (InvPi / (eta * eta))
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if Hemisphere.isSameSide(wo, wi) then reflected(base, wo, wi) else Rgb.Black
 
-  def f(wo: Vec3, wi: Vec3): Rgb = value(base, wo, wi)
+  /** Of directions on the same side. */
+  private def reflected(base: Rgb, wo: Vec3, wi: Vec3): Rgb =
+    base * (coat.transmittance(wo) * coat.transmittance(wi)) + gloss * topValue(wo, wi)
 
-  private def value(base: Rgb, wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
+  private def topValue(wo: Vec3, wi: Vec3): Float =
+    if topIsSmooth then 0f
     else
-      val diffuse = base * (coat.transmittance(wo) * coat.transmittance(wi))
-      if topIsSmooth then diffuse
-      else
-        val o = Hemisphere.above(wo)
-        val i = Hemisphere.above(wi)
-        val m = (o + i).normalized
-        val cosM = o dot m
-        // As in MicrofacetReflection
-        if cosM <= 0f then diffuse
-        else diffuse + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
+      val m = (o + i).normalized
+      val cosM = o dot m
+      // As in MicrofacetReflection
+      if cosM <= 0f then 0f
+      else Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m)
 
   /** Probability of sampling the outer interface: its fraction of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =
@@ -94,11 +97,10 @@ final class CoatedDiffuse(
 
   private def weigh(wo: Vec3, wi: Vec3, out: Bounce): Unit =
     val density = pdf(wo, wi)
-    val reflected = if density > 0f then value(sampledBase, wo, wi) else Rgb.Black
-    if density <= 0f || reflected.isBlack then out.absorb()
-    else
-      val weight = reflected * (Hemisphere.absCos(wi) / density)
+    if density > 0f then
+      val weight = reflected(sampledBase, wo, wi) * (Hemisphere.absCos(wi) / density)
       out.set(wi, weight, density, isSpecular = false)
+    else out.absorb()
 
   override def diffuseReflectance(wo: Vec3): Rgb =
     if albedo == null then super.diffuseReflectance(wo) else albedo
@@ -107,35 +109,50 @@ final class CoatedDiffuse(
 
   // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf =
-    new CoatedDiffuse(series, sampledSeries, top.regularized, coat.regularized, gloss, albedo)
+    new CoatedDiffuse(series, top.regularized, coat.regularized, gloss, albedo)
 
-object CoatedDiffuse:
+/** What the base under a [[CoatedDiffuse]] reflects, with all that the coat sends back to it. */
+abstract class BaseSeries:
+  /** albedo · Σ (albedo · R)^k, by colour. */
+  def full(coat: Coat): Rgb
 
-  /** @param albedo   of the base, in [0, 1]
-    * @param baseHits maximum number of reflections at the base
+  /** The same for sampled directions, which may have one reflection fewer.
+    *
+    * @param full that under the same coat
     */
-  def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
-    apply(baseHits, baseHits, top, coat)(f => albedo.map(f))
+  def sampled(@unused coat: Coat, full: Rgb): Rgb = full
 
-  /** @param ofReflectance applies a function to the base's reflectance, channel by channel or by
-    *                      wavelength
+object BaseSeries:
+  /** Of at most `baseHits` reflections at the base, and `sampledBaseHits` for sampled directions
+    * ([[LayerMedium.sampledBaseHits]]).
     */
-  def apply(baseHits: Int, sampledBaseHits: Int, top: TrowbridgeReitz, coat: Coat)(
-      ofReflectance: (Float => Float) => Rgb
-  ): CoatedDiffuse =
-    def of(hits: Int): Coat => Rgb = layer => ofReflectance(series(_, layer, hits))
-    val full = of(baseHits)
-    val sampled = if sampledBaseHits == baseHits then full else of(sampledBaseHits)
-    new CoatedDiffuse(full, sampled, top, coat)
+  abstract class OfHits(baseHits: Int, sampledBaseHits: Int) extends BaseSeries:
+    protected def upTo(hits: Int, coat: Coat): Rgb
+    final def full(coat: Coat): Rgb = upTo(baseHits, coat)
+    final override def sampled(coat: Coat, full: Rgb): Rgb =
+      if sampledBaseHits == baseHits then full else upTo(sampledBaseHits, coat)
+
+  /** @param albedo of the base, in [0, 1] */
+  final class OfColor(albedo: Rgb, baseHits: Int, sampledBaseHits: Int)
+      extends OfHits(baseHits, sampledBaseHits):
+    protected def upTo(hits: Int, coat: Coat): Rgb = albedo.map(sum(_, hits, coat))
+
+  /** @param ofReflectance applies a function to the base's reflectance, by wavelength */
+  final class OfSpectrum(
+      ofReflectance: (Float => Float) => Rgb,
+      baseHits: Int,
+      sampledBaseHits: Int
+  ) extends OfHits(baseHits, sampledBaseHits):
+    protected def upTo(hits: Int, coat: Coat): Rgb = ofReflectance(sum(_, hits, coat))
 
   /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
-  def series(albedo: Float, coat: Coat, baseHits: Int): Float =
-    var sum = 0f
+  def sum(albedo: Float, baseHits: Int, coat: Coat): Float =
+    var total = 0f
     var k = 0
     while k < baseHits do
-      sum = albedo * (1f + coat.internalReflectance * sum)
+      total = albedo * (1f + coat.internalReflectance * total)
       k += 1
-    sum
+    total
 
 /** [[CoatedDiffuse]]; `reflectance` is clamped to [0, 1].
   *
@@ -157,10 +174,11 @@ final class CoatedDiffuseMaterial private (
   def bsdf(at: ShadingPoint): Bsdf =
     val top = roughness.trowbridgeReitz(at)
     val coat = coating.coatOf(top)
-    val ofReflectance = spectrum.getOrElse:
-      val albedo = reflectance.albedo(at)
-      (f: Float => Float) => albedo.map(f)
-    CoatedDiffuse(medium.baseHits, medium.sampledBaseHits, top, coat)(ofReflectance)
+    val (baseHits, sampledBaseHits) = (medium.baseHits, medium.sampledBaseHits)
+    val series = spectrum match
+      case Some(ofReflectance) => BaseSeries.OfSpectrum(ofReflectance, baseHits, sampledBaseHits)
+      case None => BaseSeries.OfColor(reflectance.albedo(at), baseHits, sampledBaseHits)
+    CoatedDiffuse(series, top, coat)
 
 object CoatedDiffuseMaterial:
 

@@ -2,6 +2,7 @@ package candela.bsdf.layered
 
 import candela.bsdf.{Bsdf, Fresnel, Material}
 import candela.bsdf.microfacet.Roughness
+import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{RgbTexture, Textured}
 
@@ -38,7 +39,10 @@ final class VarnishMaterial(
 
   def bsdf(at: ShadingPoint): Bsdf =
     val albedo = reflectance.albedo(at)
-    def series(coat: Coat) = under match
+    CoatedDiffuse(Series(albedo), roughness(at), coat, specular.positive(at), albedo)
+
+  private final class Series(albedo: Rgb) extends BaseSeries:
+    def full(coat: Coat): Rgb = under match
       case Varnish.Plain =>
         val internal = reflected(coat)
         albedo.map(_ / (1f - internal))
@@ -47,7 +51,6 @@ final class VarnishMaterial(
         albedo.map(c => c / (1f - internal * c))
       // Light that leaves is spread by the factor η², which Mitsuba leaves out here
       case Varnish.Once => albedo * (eta * eta)
-    new CoatedDiffuse(series, series, roughness(at), coat, specular.positive(at), albedo)
 
   /** Of light from the base. Under smooth coats Mitsuba takes fits. Under rough ones it takes the
     * mean of 64 cosines, both ends included, so that the reflectance at normal incidence counts too

@@ -27,7 +27,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     oneOf("wrapt", "wrap mode along t, if it differs", WrapModes.Names, onlyGltf, shown = "`wrap`")(
       ""
     )
-  private val pyramid = Once[ImageLookup]()
+  private val pyramid = Once[FilteredLookup]()
   protected val scale = float("scale", "scale of the values")(1f)
   protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that linearises values", onlyV2)(1f)
@@ -66,7 +66,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
   protected def note(colors: => Vector[Rgb])(using Site): Unit
 
   /** Returns the image's lookup. Reports problems and returns None. */
-  protected def lookup()(using site: Site): Option[ImageLookup] =
+  protected def lookup()(using site: Site): Option[FilteredLookup] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
         site.error(Code.MissingParameter, "an \"imagemap\" needs `filename`")
@@ -105,7 +105,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
   protected def isPicked(channels: Vector[Int])(using Site): Boolean
 
   /** The image with levels that are made. */
-  private def generated(p: Param)(using site: Site): Option[ImageLookup] =
+  private def generated(p: Param)(using site: Site): Option[FilteredLookup] =
     site.resources.textures.tiles match
       case Some(tiles) =>
         val cachedImage = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
@@ -162,7 +162,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
   private def maxValue(isBytes: Boolean)(using site: Site): Float =
     if site.dialect == Dialect.V4 && isBytes then 1f else Float.PositiveInfinity
 
-  private def filtered(levels: MipMap)(using site: Site): ImageLookup =
+  private def filtered(levels: MipMap)(using site: Site): FilteredLookup =
     val dialect = site.dialect
     val bottomUp = dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
     val isV4 = dialect == Dialect.V4

@@ -19,7 +19,11 @@ class CoatedDiffuseSuite extends BsdfLaws:
       baseHits: Int = 5
   ): CoatedDiffuse =
     val top = TrowbridgeReitz(alphaX, alphaY)
-    CoatedDiffuse(albedo, top, coats.of(top, eta, thickness), baseHits)
+    CoatedDiffuse(
+      BaseSeries.OfColor(albedo, baseHits, baseHits),
+      top,
+      coats.of(top, eta, thickness)
+    )
 
   obeysLaws("smooth coat", coated(Rgb(0.2f, 0.5f, 0.9f), 0f, 0f))
   obeysLaws("smooth coat on white", coated(Rgb.White, 0f, 0f, thickness = 0f, baseHits = 200))

@@ -70,12 +70,9 @@ class LayeredSuite extends BsdfLaws:
   for (alpha, albedo, depth) <- Seq((0f, 0.8f, 10), (0.2f, 0.8f, 10), (0.6f, 0.5f, 3)) do
     test(s"alpha $alpha, diffuse base of $albedo, $depth events: values have the exact mean"):
       val top = rough(alpha)
-      val exact = CoatedDiffuse(
-        Rgb.gray(albedo),
-        top,
-        Coats().of(top, 1.5f, 0.1f),
-        baseHits = (depth + 1) / 2
-      )
+      val baseHits = (depth + 1) / 2
+      val series = BaseSeries.OfColor(Rgb.gray(albedo), baseHits, baseHits)
+      val exact = CoatedDiffuse(series, top, Coats().of(top, 1.5f, 0.1f))
       for (wo, wi) <- pairs do
         val walks = mean(
           seed => layered(top, lambert(albedo), maxDepth = depth, seed = seed),
@@ -107,9 +104,8 @@ class LayeredSuite extends BsdfLaws:
         walks = 1
       )
       val coat = Coats().of(top, 1.5f, 0.1f)
-      val exact = CoatedDiffuse(layers.baseHits, layers.sampledBaseHits, top, coat)(f =>
-        Rgb.gray(f(0.9f))
-      )
+      val series = BaseSeries.OfColor(Rgb.gray(0.9f), layers.baseHits, layers.sampledBaseHits)
+      val exact = CoatedDiffuse(series, top, coat)
       val walks = power(i => layered(top, lambert(0.9f), maxDepth = depth, seed = i))
       val summed = power(_ => exact)
       val even = power: i =>

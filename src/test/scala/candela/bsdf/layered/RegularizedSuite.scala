@@ -17,14 +17,15 @@ import candela.textures.{ConstantFloat, ConstantRgb}
 class RegularizedSuite extends AnyFunSuite:
   private val copper = ConductorReflectance(Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.6f, 2.4f))
   private val gray = Rgb.gray(0.5f)
+  private val series = BaseSeries.OfColor(gray, 5, 5)
   private val coats = Coats()
   private def rough(alpha: Float) = TrowbridgeReitz(alpha, alpha)
   private def wide(alpha: Float) = rough(alpha).regularized
 
   private def coated(top: TrowbridgeReitz) =
-    CoatedDiffuse(gray, top, coats.of(top, 1.5f, 0.01f), 5)
+    CoatedDiffuse(series, top, coats.of(top, 1.5f, 0.01f))
   private def varying(top: TrowbridgeReitz) =
-    CoatedDiffuse(gray, top, Coats.interpolate(coats.family(1.5f, 0.01f), top), 5)
+    CoatedDiffuse(series, top, Coats.interpolate(coats.family(1.5f, 0.01f), top))
   private def layered(top: TrowbridgeReitz, base: TrowbridgeReitz) = Layered(
     Layers(top, 1.5f, Conductor(base, copper), 0.2f, Rgb.Black, 0f, 10, 1, base, 0.5f),
     seed = 1

@@ -5,7 +5,7 @@ import candela.bsdf.{
   Lobes, OrenNayar, Scaled, SentThrough
 }
 import candela.bsdf.composite.{DisneyMaterial, DisneyParameters, Hair, HairShape}
-import candela.bsdf.layered.{CoatedDiffuse, Coats, Layered, Layers}
+import candela.bsdf.layered.{BaseSeries, CoatedDiffuse, Coats, Layered, Layers}
 import candela.bsdf.measured.HalfAngleReflection
 import candela.bsdf.microfacet.{
   Conductor, CosinePower, Dielectric, FresnelBlend, MicrofacetReflection, Passthrough,
@@ -71,7 +71,7 @@ object ExtremeBsdfs:
       val top = TrowbridgeReitz(a, a)
       val coat = Coats().of(top, eta, thick)
       s"coated diffuse of index $eta, roughness $a, thickness $thick" ->
-        CoatedDiffuse(Rgb.White, top, coat, 50)
+        CoatedDiffuse(BaseSeries.OfColor(Rgb.White, 50, 50), top, coat)
 
   private def layers =
     val mirror = Conductor(glossy((0f, 0f)), metals(2)._2)
