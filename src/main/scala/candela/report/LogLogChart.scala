@@ -21,7 +21,7 @@ final case class Series(name: String, color: Int, isThin: Boolean, marks: Vector
   * reader's light or dark theme.
   *
   * No charting library: those either draw on a canvas, which a README can't embed, or produce
-  * images with colours for only one of the themes (docs/decisions/0009).
+  * images with colours for only one of the themes.
   *
   * @param guideSlope expected slope, drawn as a dotted line
   * @param goal target value, drawn as a horizontal line
