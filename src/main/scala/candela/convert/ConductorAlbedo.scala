@@ -24,7 +24,7 @@ private[convert] object ConductorAlbedo:
       if mean(1f, 2 * sqrt(r) / sqrt(1 - r)) < albedo then low = r else high = r
     (low + high) / 2
 
-  private def mean(eta: Float, k: Float): Float =
+  def mean(eta: Float, k: Float): Float =
     var sum = 0.0
     loop(Steps): i =>
       val cos = (i + 0.5f) / Steps
@@ -32,4 +32,4 @@ private[convert] object ConductorAlbedo:
     (2 * sum / Steps).toFloat
 
   private val Halvings = 20
-  private val Steps = 500
+  private val Steps = 100

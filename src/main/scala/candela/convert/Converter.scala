@@ -57,9 +57,11 @@ object Converter:
       else Converted(relocated, Vector.empty)
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || from != Dialect.V4
-    val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val spectral = Option.when(scene.dialect == Dialect.V4 && to != Dialect.V4):
-      SpectralColors.warning(based.scene, program(to), SpectralColors.Plain)
+    val srgb = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
+    val isSpectral = scene.dialect == Dialect.V4 && to != Dialect.V4
+    val spectral = Option.when(isSpectral):
+      SpectralColors.warning(srgb.scene, program(to), SpectralColors.Plain)
+    val based = if isSpectral then srgb.copy(scene = MetalColors.inNumbers(srgb.scene)) else srgb
     val warnings = translated.warnings ++ images.warnings ++ based.warnings ++
       spectral.flatten ++ interfaces(scene, from, to)
     val start = based.copy(warnings = warnings)
@@ -136,8 +138,9 @@ object Converter:
     val clamped = ColorRanges.clamped(converted)
     if from == Dialect.V4 then clamped
     else
-      val spectral = SpectralColors.warning(clamped.scene, program(from), SpectralColors.Plain)
-      Converted(InstanceMotions.toV4(clamped.scene), clamped.warnings ++ spectral)
+      val scene = MetalColors.inSpectra(clamped.scene)
+      val spectral = SpectralColors.warning(scene, program(from), SpectralColors.Plain)
+      Converted(InstanceMotions.toV4(scene), clamped.warnings ++ spectral)
 
   private def program(d: Dialect) = s"pbrt-${d.toString.toLowerCase}"
 

@@ -12,8 +12,8 @@ import candela.scenefile.{
 private[convert] object MitsubaInV4:
 
   def converted(scene: SceneDescription): Converted =
-    val lit = areaLights(scene)
-    lit.copy(warnings = lit.warnings ++ SpectralColors.warning(scene, "Mitsuba"))
+    val lit = areaLights(MetalColors.inSpectra(scene))
+    lit.copy(warnings = lit.warnings ++ SpectralColors.warning(lit.scene, "Mitsuba"))
 
   /** pbrt-v4 takes no light from shapes without a material. Glass of index 1 looks the same: rays
     * pass it unscattered.

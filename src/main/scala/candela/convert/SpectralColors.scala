@@ -106,6 +106,7 @@ private[convert] object SpectralColors:
       case "LightSource" | "AreaLightSource" => addLight(d)
       case "Material" =>
         for p <- d.params if Reflecting(p.name) do addSurface(p, d)
+        for metal <- MetalColors.albedo(d) do remember(reflected, metal.components, d.pos)(metal)
       case "Medium" =>
         for
           a <- d.param("sigma_a")
@@ -191,7 +192,7 @@ private[convert] object SpectralColors:
     if color.max > 0f then (product.components - color).largest / color.max else 0.0
 
   /** As pbrt-v4: smooth, and if not a reflectance, half as bright as can be. */
-  private def spectrum(c: Rgb, isBounded: Boolean): ColoredSpectrum =
+  def spectrum(c: Rgb, isBounded: Boolean): ColoredSpectrum =
     if Values.isGray(c) then ColoredSpectrum(Even.values.map(_ * c.r), c)
     else
       val scale = if isBounded then 1f else 2 * c.max
