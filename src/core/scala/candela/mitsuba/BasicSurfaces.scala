@@ -29,22 +29,21 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     case "hair" => hair(in)
     case "null" => surface(in, "interface", isOneSided = false)()
     case "measured" =>
-      val file = in.text("filename").flatMap(session.file(_, in.posOf("filename"), "using grey"))
-      file.fold(grey(in)): path =>
+      val at = in.posOf("filename")
+      val file = in.text("filename").flatMap(session.file(_, at, Textures.UsingMagenta))
+      file.fold(diffuse(in, Textures.Magenta)): path =>
         surface(in, "measured", isOneSided = true)(
-          Param.string("filename", in.posOf("filename"), session.named(path))
+          Param.string("filename", at, session.named(path))
         )
     case _ =>
       Plugins.unsupported(in.plugin, "using a diffuse reflectance of 0.5", session)
       in.ignore(in.plugin.properties.map(_.name)*)
       grey(in)
 
-  def grey(in: Properties): Surface =
-    surface(
-      in,
-      "diffuse",
-      isOneSided = true
-    )(Textures.rgb("reflectance", Textures.Fallback, in.pos))
+  def grey(in: Properties): Surface = diffuse(in, Textures.Fallback)
+
+  private def diffuse(in: Properties, color: Rgb): Surface =
+    surface(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", color, in.pos))
 
   /** The same model as pbrt's. */
   private def hair(in: Properties): Surface =

@@ -112,13 +112,17 @@ final class Emitters(
       name <- in.text("filename").orElse:
         session.error(Code.MissingParameter, in.pos, "an envmap must have a `filename`")
         None
-      path <- session.file(name, in.posOf("filename"), "skipped")
-    yield
-      // v4's maps are equal-area, v3's are latitude and longitude, as Mitsuba's
-      light(in, "infinite", in.transform("to_world") * axes, "", Some(Dialect.V3))(
-        Param.string("mapname", in.posOf("filename"), session.named(path)),
-        Textures.rgb("L", Rgb.gray(scale), in.pos)
-      )
+    yield session.file(name, in.posOf("filename"), Textures.UsingMagenta) match
+      case Some(path) =>
+        // v4's maps are equal-area, v3's are latitude and longitude, as Mitsuba's
+        light(in, "infinite", in.transform("to_world") * axes, "", Some(Dialect.V3))(
+          Param.string("mapname", in.posOf("filename"), session.named(path)),
+          Textures.rgb("L", Rgb.gray(scale), in.pos)
+        )
+      case None =>
+        light(in, "infinite", Transform.Identity, "")(
+          Textures.rgb("L", Textures.Magenta * scale, in.pos)
+        )
 
   private def spot(in: Properties, mediumName: String): Option[LightDescription] =
     val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
@@ -134,7 +138,9 @@ final class Emitters(
       case Shade.Constant(tint, _) =>
         lit(if tint == Rgb.White then c else Shade.Constant(c.c * tint), Vector.empty)
       case Shade.Textured(t) =>
-        picture(t).flatMap((_, params) => lit(c, slides(params)))
+        picture(t).flatMap:
+          case Right(params) => lit(c, slides(params))
+          case Left(color) => lit(Shade.Constant(c.c * color), Vector.empty)
 
   private def slides(params: Seq[Param]): Seq[Param] =
     params.map(p => if p.name == "filename" then p.renamed("mapname") else p)
@@ -169,8 +175,9 @@ final class Emitters(
             in.posOf("fov_axis"),
             "a projector with an image supports only the axis x; using x"
           )
-        picture(t).map: (_, params) =>
-          lit((Textures.rgb("I", scale, in.pos) +: slides(params))*)
+        picture(t).map:
+          case Right(params) => lit((Textures.rgb("I", scale, in.pos) +: slides(params))*)
+          case Left(color) => lit(Textures.rgb("I", color * scale, in.pos))
 
   /** A bitmap that emits, over u and v. */
   private def spread(p: Plugin): Option[Seq[Param]] =
@@ -191,16 +198,16 @@ final class Emitters(
               if filter == "nearest" then "point" else filter
             )
         ) ++ uvMapping
-    ).map((_, params) => params)
+    ).map(_.fold(color => Seq(Textures.rgb("L", color, p.pos)), identity))
 
-  /** The file of a bitmap that emits.
+  /** The file of a bitmap that emits, or the colour in its place if there is no such file.
     *
     * @param extra further parameters of the texture
     */
   private def picture(
       p: Plugin,
       extra: Properties => Seq[Param] = plainParams
-  ): Option[(String, Seq[Param])] =
+  ): Option[Either[Rgb, Seq[Param]]] =
     if p.name != "bitmap" then
       session.warn(Code.Unsupported, p.pos, s"${p.description} can't emit here; using nothing")
       None
@@ -209,12 +216,11 @@ final class Emitters(
         in.ignore("format", "accel")
         val extraParams = extra(in)
         val isRaw = in.flag("raw", false)
-        for
-          name <- in.text("filename")
-          path <- session.file(name, in.posOf("filename"), "skipped")
-        yield
-          val file = Param.string("filename", in.posOf("filename"), session.named(path))
-          (name, Vector(file, Param.bool("raw", in.posOf("raw"), isRaw)) ++ extraParams)
+        val at = in.posOf("filename")
+        in.text("filename").map: name =>
+          session.file(name, at, Textures.UsingMagenta).toRight(Textures.Magenta).map: path =>
+            val file = Param.string("filename", at, session.named(path))
+            Vector(file, Param.bool("raw", in.posOf("raw"), isRaw)) ++ extraParams
 
   private def plainParams(in: Properties): Seq[Param] =
     in.ignore("filter_type", "wrap_mode")

@@ -149,8 +149,12 @@ final class Textures(session: Session, colors: Colors):
       val at = in.posOf("filename")
       val isColor = valueType == "spectrum"
       // As for images of pbrt's scenes
-      session.file(name, at, if isColor then "using magenta" else "using the constant 1") match
-        case None if isColor => "constant" -> Seq(Textures.rgb("value", Rgb(1f, 0f, 1f), at))
+      session.file(
+        name,
+        at,
+        if isColor then Textures.UsingMagenta else "using the constant 1"
+      ) match
+        case None if isColor => "constant" -> Seq(Textures.rgb("value", Textures.Magenta, at))
         case None => "constant" -> Seq(Param.float("value", at, 1f))
         case Some(path) =>
           "imagemap" -> (Seq(
@@ -328,6 +332,10 @@ object Textures:
 
   /** Instead of a texture that is not supported. */
   val Fallback: Rgb = Rgb.gray(0.5f)
+
+  /** Instead of an image that is missing. */
+  val Magenta: Rgb = Rgb(1f, 0f, 1f)
+  val UsingMagenta = "using magenta"
 
   /** The mapping of an image that lies on u and v as they are. */
   val Upright: Vector[Float] = Vector(1f, 0f, 0f, 0f, 1f, 0f)

@@ -315,18 +315,42 @@ class MitsubaRulesSuite extends AnyFunSuite:
         assert(messages.count(_.endsWith(s"has one $kind; this one is ignored")) == 1, messages)
       assert(messages.count(_.contains("Mitsuba takes one light from everywhere")) == 1, messages)
 
-  test("missing images are placeholders as those of pbrt's scenes"):
-    val map =
-      "<texture type=\"bitmap\" name=\"NAME\"><string name=\"filename\" value=\"no.png\"/>" +
-        "</texture>"
-    val bsdf = "<bsdf type=\"principled\">" + map.replace("NAME", "base_color") +
-      map.replace("NAME", "roughness") + "</bsdf>"
-    val text = s"<scene version=\"3.0.0\">${sensor()}<shape type=\"sphere\">$bsdf</shape></scene>"
+  private def keptGoing(body: String): SceneDescription =
     val file = Files.createTempFile("candela", ".xml")
     try
+      val text = s"<scene version=\"3.0.0\">${sensor()}$body</scene>"
       val _ = Files.writeString(file, text)
       val scene = MitsubaScene.readable(file, Map.empty, keepGoing = true)
       assert(scene.errors.isEmpty, scene.errors)
-      val told = scene.warnings.flatMap(_.standIn).toSet
-      assert(told == Set("using magenta", "using the constant 1"), told)
+      scene
     finally Files.delete(file)
+
+  private val missingFile = "<string name=\"filename\" value=\"no.png\"/>"
+  private def missingMap(name: String) =
+    s"<texture type=\"bitmap\" name=\"$name\">$missingFile</texture>"
+
+  test("missing images are placeholders as those of pbrt's scenes"):
+    val maps = missingMap("base_color") + missingMap("roughness")
+    val scene =
+      keptGoing(s"<shape type=\"sphere\"><bsdf type=\"principled\">$maps</bsdf></shape>")
+    val told = scene.warnings.flatMap(_.standIn).toSet
+    assert(told == Set("using magenta", "using the constant 1"), told)
+
+  test("emitters and measured materials whose files are missing are magenta"):
+    def emitter(kind: String, inner: String) = s"<emitter type=\"$kind\">$inner</emitter>"
+    for
+      body <- Seq(
+        emitter("envmap", missingFile),
+        emitter("spot", missingMap("texture")),
+        emitter("projector", missingMap("irradiance")),
+        s"<shape type=\"sphere\">${emitter("area", missingMap("radiance"))}</shape>",
+        s"<shape type=\"sphere\"><bsdf type=\"measured\">$missingFile</bsdf></shape>"
+      )
+    do
+      val scene = keptGoing(body)
+      val lights = scene.lights.map(_.light) ++ scene.shapes.flatMap(_.areaLight)
+      val declared = lights ++ scene.shapes.flatMap(_.material.declared(Map.empty))
+      val colors = declared.flatMap(_.params).filter(p => Set("L", "I", "reflectance")(p.name))
+        .map(_.floats.toSeq).filter(_.distinct.size > 1)
+      assert(colors.exists(c => c(0) > 0f && c(0) == c(2) && c(1) == 0f), s"$body: $declared")
+      assert(scene.warnings.flatMap(_.standIn) == Vector("using magenta"), scene.warnings)
