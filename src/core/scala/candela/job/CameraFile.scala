@@ -34,7 +34,25 @@ object CameraFile:
     val viewed =
       if isSensor then ofSensor(scene, file, folder, text, reading)
       else CameraStatements.applied(scene, Source.fromText(name, text), folder)
-    viewed.copy(sources = viewed.sources :+ file)
+    viewed.copy(
+      sources = viewed.sources :+ file,
+      warnings = viewed.warnings ++ mirroring(scene, viewed, name)
+    )
+
+  /** If pbrt's left-handed camera stands in a right-handed scene, or the reverse. */
+  private def mirroring(
+      scene: SceneDescription,
+      viewed: SceneDescription,
+      name: String
+  ): Option[Problem] =
+    def isMirrored(s: SceneDescription) = s.worldToCamera.start.swapsHandedness
+    Option.when(scene.camera.isDefined && isMirrored(scene) != isMirrored(viewed)):
+      Problem.warning(
+        Code.OptionMisfit,
+        SourcePos(name, 1, 1),
+        "this camera shows the scene mirrored, unlike the scene's own",
+        Some("begin the file with `Scale -1 1 1`")
+      )
 
   /** The scene with the camera of statements.
     *

@@ -282,7 +282,8 @@ object SettingsTable:
       "a camera instead of the scene's: LookAt and Camera statements, or a Mitsuba scene's <sensor>"
     )(_.reading.camera)((s, f) => parse(s)(_.copy(camera = Some(f))))(using TextForm.string)
       .explained(
-        "For scenes of every format; `candela move` writes such files: " +
+        "For scenes of every format. pbrt's cameras are left-handed: for models and Mitsuba's " +
+          "scenes, begin with `Scale -1 1 1`. `candela move` writes such files: " +
           "[moving the camera](WATCHING.md#moving-the-camera)."
       ),
     option(

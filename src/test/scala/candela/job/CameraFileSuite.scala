@@ -124,6 +124,25 @@ class CameraFileSuite extends AnyFunSuite:
       assert(found.worldToCamera == scene.worldToCamera)
       assert(found.camera.get.param("fov").get.floats.toSeq == Seq(30f))
 
+  test("a model whose camera is in a file lacks light alone"):
+    TempFolder.use: folder =>
+      val model = written(folder, "model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+      val additions = read(model, Some(written(folder, "camera.pbrt", Views))).additions
+      assert(additions.exists(_.startsWith("shown by a studio with light, which it lacks")))
+
+  test("a camera of the other handedness than the scene's own is a warning"):
+    TempFolder.use: folder =>
+      val own = sensor("""<lookat origin="0,0,9" target="0,0,0" up="0,1,0"/>""", 50, Film)
+      val xml = written(folder, "scene.xml", Mitsuba.replace("SENSOR", own))
+      val pbrt = written(folder, "scene.pbrt", s"Scale -1 1 1 $Views${world("v4")}")
+      val plain = written(folder, "plain.pbrt", s"$Views${world("v4")}")
+      def warned(scene: Path, text: String) =
+        read(scene, Some(written(folder, "camera.pbrt", text))).warnings.map(_.message)
+      for scene <- Vector(xml, pbrt) do
+        assert(warned(scene, Views).exists(_.contains("mirrored")))
+        assert(warned(scene, s"Scale -1 1 1 $Views").isEmpty)
+      assert(warned(plain, Views).isEmpty)
+
   private def problem(text: String, scene: String = Views + world("v4")): String =
     TempFolder.use: folder =>
       val name = if scene.startsWith("<") then "scene.xml" else "scene.pbrt"

@@ -33,7 +33,7 @@ private[models] object GltfScene:
     // All images of an animation have the view of the first
     val framed = Option.when(times.isDefined && world > 0)(reader(0).result(sensor))
     val isWhole = current.environment.isDefined
-    val complete = Studio.complete(model, session, reading.model, world, isWhole, framed)
+    val complete = Studio.complete(model, session, reading, world, isWhole, framed)
     val placed = Interiors(complete, session).result
     val scene = times.fold(placed): t =>
       View.numbered(placed, session, world).copy(isFollowed = world + 1 < t.count)

@@ -37,7 +37,7 @@ abstract class MeshFormat private[models] (name: String, suffix: String, up: UpA
     val axis = reading.model.up.getOrElse(up)
     val turned = MeshFormat.upright(surfaces(input, session), axis)
     val complete =
-      Studio.complete(turned, session, reading.model, world.getOrElse(0), isWhole = false)
+      Studio.complete(turned, session, reading, world.getOrElse(0), isWhole = false)
     val scene = MeshFormat.withAxis(session.finished(complete), reading.model.up, up)
     scene.copy(
       isFollowed = scene.isFollowed && world.isDefined && reading.model.turntable.nonEmpty

@@ -11,14 +11,14 @@ import candela.scenefile.{
   SceneDescription,
   ShapeDescription
 }
-import candela.settings.{ModelGround, ModelLight, ModelSettings}
+import candela.settings.{ModelGround, ModelLight, ReadSettings}
 
 import java.nio.file.{Files, Path}
 
 /** What a model lacks to be shown: a view of it, and light. */
 private[models] object Studio:
 
-  /** The scene with a camera if it has none, and in a studio if nothing lights it, or as asked.
+  /** The scene with a camera if it has none, and in a studio if nothing lights it, or as settings.
     *
     * @param world   number of the image of a turntable
     * @param isWhole whether it needs no light
@@ -27,24 +27,25 @@ private[models] object Studio:
   def complete(
       scene: SceneDescription,
       session: Session,
-      asked: ModelSettings,
+      reading: ReadSettings,
       world: Int,
       isWhole: Boolean,
       framed: Option[SceneDescription] = None
   ): SceneDescription =
+    val settings = reading.model
     val bounds = ModelBounds.of(framed.getOrElse(scene))
     val isDark = !isWhole && !isLit(scene)
-    if isWhole && bounds.isEmpty && scene.camera.isDefined && asked.light.isEmpty then scene
+    if isWhole && bounds.isEmpty && scene.camera.isDefined && settings.light.isEmpty then scene
     else if bounds.isEmpty then
       session.error(session.position, "the model has no surface", Code.NoSurface)
       scene
     else
-      val images = asked.turntable.getOrElse(1)
+      val images = settings.turntable.getOrElse(1)
       val viewed =
         if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
-      val turn = asked.turntable.fold(0.0)(world * 360.0 / _)
+      val turn = settings.turntable.fold(0.0)(world * 360.0 / _)
       val turned =
-        if asked.turntable.isEmpty then viewed
+        if settings.turntable.isEmpty then viewed
         else
           View.numbered(viewed, session, world).copy(
             worldToCamera = GraphicsState.constant(
@@ -52,19 +53,19 @@ private[models] object Studio:
             ),
             isFollowed = world + 1 < images
           )
-      val light = asked.light.orElse(Option.when(isDark)(ModelLight.Studio))
-      if asked.background.nonEmpty && !light.exists(_.hasGround) then
+      val light = settings.light.orElse(Option.when(isDark)(ModelLight.Studio))
+      if settings.background.nonEmpty && !light.exists(_.hasGround) then
         val help = "--light studio and --light sky have one"
         throw SceneError(Problem.general(
           Code.OptionMisfit,
           s"`${session.file}` is shown without a ground, which --background changes",
           Some(help)
         ))
-      val dark = if asked.light.isEmpty then turned else turned.copy(lights = Vector.empty)
-      val lit = light.fold(dark)(Surroundings(bounds, dark, session, asked.background, turn).lit)
+      val dark = if settings.light.isEmpty then turned else turned.copy(lights = Vector.empty)
+      val lit = light.fold(dark)(Surroundings(bounds, dark, session, settings.background, turn).lit)
       val missing = Vector(
-        Option.when(scene.camera.isEmpty)("a camera that sees all of it"),
-        Option.when(asked.light.isEmpty && isDark)("a studio with light")
+        Option.when(scene.camera.isEmpty && reading.camera.isEmpty)("a camera that sees all of it"),
+        Option.when(settings.light.isEmpty && isDark)("a studio with light")
       ).flatten
       lit.copy(additions =
         Option.when(missing.nonEmpty)(s"shown by ${missing.mkString(" and ")}, which it lacks")
