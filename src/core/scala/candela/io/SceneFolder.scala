@@ -174,7 +174,8 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
   private def outside(path: Path, at: Option[SourcePos]): Refusal =
     val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)
     val description =
-      if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
+      if realRoot.isEmpty then s"`$path`; there is no folder `$root`"
+      else if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
     Refusal(Code.Sandboxed, at, s"expected a file in the scene's folder, found $description", Help)
 
   private val Help = "--sandbox lets scenes read the files of their own folder only"

@@ -25,7 +25,8 @@ private[job] object ForeignAdvice:
       source.foreign(file) match
         case Some(found) if SceneFormat.named(file).exists(_.owns(found.kind)) => None
         case Some(found) =>
-          val message = s"`$file` is ${found.what}, not a scene"
+          val scene = if found.kind == Mitsuba then "a pbrt scene" else "a scene"
+          val message = s"`$file` is ${found.what}, not $scene"
           Some(Problem.general(Code.NoScene, message, advice(found.kind, file)))
         case None =>
           Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):

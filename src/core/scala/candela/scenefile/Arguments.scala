@@ -110,7 +110,9 @@ private[scenefile] final class WrittenArguments(
     values
 
   def quoted(expected: String): (String, SourcePos) =
-    if in.current != Token.Text then notQuoted(in.pos, expected, in.description)
+    if in.current != Token.Text then
+      val unquoted = if in.description == s"`${in.text}`" then " without them" else ""
+      notQuoted(in.pos, expected, in.description + unquoted)
     val text = (in.text, in.pos)
     in.advance()
     text

@@ -13,6 +13,13 @@ class ForeignSceneSuite extends AnyFunSuite:
 
   private val commands = Vector("render", "check", "convert", "preview")
 
+  test("one name for the images of a turntable is refused"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+      val (code, captured) = Captured.run(s"$file", "--turntable", "2", "--outfile", "b.png")
+      assert(code == ExitCode.BadInput.number)
+      assert(captured.err.contains("has several images; `b.png` names one"), captured.err)
+
   private def refusal(words: String*): Vector[String] =
     val (code, captured) = Captured.run(words*)
     assert(code == ExitCode.BadInput.number && captured.out.isEmpty)
@@ -29,6 +36,14 @@ class ForeignSceneSuite extends AnyFunSuite:
             s"error: `$file` is $what, not a scene [E0102]",
             s" `candela view $file` shows it"
           ))
+
+  test("a Mitsuba scene by another suffix is no scene of pbrt"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.pbrt"), "<scene version=\"3.0.0\"></scene>")
+      assert(refusal("check", s"$file") == Vector(
+        s"error: `$file` is a Mitsuba scene, not a pbrt scene [E0102]",
+        " its name must end with .xml"
+      ))
 
   test("meshes and models in place of scenes are named, also if packed or by a wrong suffix"):
     TempFolder.use: folder =>

@@ -78,6 +78,8 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
     assert(lit(ModelLight.Sky, Some(ModelGround.Empty)).shapes.size == 1)
     val misspelt = intercept[SceneError](lit(ModelLight.Surroundings("studoi"))).problems.head
     assert(misspelt.help.contains("did you mean `studio`?"))
+    val absent = intercept[SceneError](lit(ModelLight.Surroundings("sun"))).problems.head
+    assert(absent.help.exists(_.contains("studio, sky or an image file")))
     val lone = intercept[SceneError]:
       lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
     assert(lone.problems.head.code == Code.OptionMisfit)

@@ -5,6 +5,7 @@ import candela.color.Rgb
 import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.geometry.Bounds3
 import candela.image.ImageSize
+import candela.io.FileName
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
@@ -115,9 +116,12 @@ private final class Surroundings(
       val ground = if isInside then None else onGround(flat(_))
       scene.copy(lights = scene.lights :+ sky, shapes = scene.shapes ++ ground)
     case ModelLight.Surroundings(file) =>
-      for near <- Suggest.nearest(file, Vector("studio", "sky")) if !Files.exists(Path.of(file)) do
-        val help = Some(s"did you mean `$near`?")
-        throw SceneError(Problem.general(Code.NoSuchFile, s"no such file: `$file`", help))
+      val near = Suggest.nearest(file, Vector("studio", "sky"))
+      if !Files.exists(Path.of(file)) && (near.isDefined || FileName.suffix(Path.of(file)).isEmpty)
+      then
+        val help =
+          near.fold("--light takes studio, sky or an image file")(n => s"did you mean `$n`?")
+        throw SceneError(Problem.general(Code.NoSuchFile, s"no such file: `$file`", Some(help)))
       val path = Path.of(file).toAbsolutePath.toString
       for
         size <- session.folder.glance(path).flatMap(ImageSize.guess)

@@ -92,7 +92,8 @@ private[cli] object Sequence:
             s"$several; a .film file holds one"
           ))
         else if !FrameNames.hasNumber(name) then
-          val message = s"$several, each an image; `$name` names one"
+          val clause = if format.worlds == "images" then "" else ", each an image"
+          val message = s"$several$clause; `$name` names one"
           throw SceneError(Problem.general(
             Code.FrameNames,
             message,

@@ -165,6 +165,8 @@ private[cli] object UsageErrors:
       val hint =
         if Synonyms.get(name).exists(s => options.exists(_.name == s)) then
           s"; did you mean `--${Synonyms(name)}`?"
+        else if Statements.contains(name) then
+          s"; the scene has it, in its ${Statements(name)} statement"
         else if otherRows.nonEmpty then
           val words = otherRows.map(r => s"`${r.command.word}`")
           s"; ${listed(words)} ${if words.size == 1 then "has" else "have"} it"
@@ -183,6 +185,10 @@ private[cli] object UsageErrors:
     "output" -> "outfile",
     "threads" -> "nthreads"
   )
+
+  /** Statements of scenes by what they say, which other programs have options for. */
+  private val Statements =
+    Map("integrator" -> "Integrator", "maxdepth" -> "Integrator", "fov" -> "Camera")
 
   private def listed(words: Vector[String]): String =
     if words.size < 2 then words.mkString else s"${words.init.mkString(", ")} and ${words.last}"

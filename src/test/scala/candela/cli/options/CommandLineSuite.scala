@@ -166,6 +166,8 @@ class CommandLineSuite extends AnyFunSuite:
     "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
     "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
     "-outfle x.exr a.pbrt" -> "did you mean `--outfile`?",
+    "--integrator bdpt a.pbrt" -> ("`candela render` has no option `--integrator`; " +
+      "the scene has it, in its Integrator statement"),
     "--xyzzy a.pbrt" -> "`candela render` has no option `--xyzzy`",
     "check --spp 4 a.pbrt" -> "`candela check` has no option `--spp`",
     "check --scene-cache a.pbrt" -> "`candela check` has no option `--scene-cache`",
