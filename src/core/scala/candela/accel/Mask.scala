@@ -34,16 +34,18 @@ final class HoleMask(alpha: FloatTexture, shadowAlpha: FloatTexture) extends Mas
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     alpha(at) == 0f || (shadow && shadowAlpha(at) == 0f)
 
-/** Stochastic alpha: a ray passes with probability 1 − `alpha`, decided by a hash of the ray, as in
-  * pbrt-v4.
+/** Stochastic alpha: a ray passes with probability 1 − `alpha`, decided by a hash of the ray.
+  *
+  * @param separate whether also of the primitive: surfaces one behind another are then passed
+  *   independently. In pbrt-v4, what passes one passes all of no higher alpha.
   *
   * Source: Wyman and McGuire, "Improved Alpha Testing Using Hashed Sampling", TVCG 23(8), 2017, for
   * hashed thresholds.
   */
-final class StochasticMask(alpha: FloatTexture) extends Mask:
+final class StochasticMask(alpha: FloatTexture, separate: Boolean) extends Mask:
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     val a = alpha(at)
-    a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, primitive) >= a)
+    a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, if separate then primitive else 0) >= a)
 
 /** Also open to rays that meet the surface from behind. */
 final class FrontMask(inner: Mask) extends Mask:

@@ -110,7 +110,8 @@ object AcceleratorScenes:
     val meshes =
       Array(0, 1, 2).map(i => Mesh(0, i * third, third, Array.empty, Array.empty, false, 0, -1))
     val soup = new TriangleSoup(all.positions, all.indices, meshes, tangents = true)
-    val masks = Array(SolidMask, FrontMask(SolidMask), StochasticMask(ConstantFloat(0.5f)))
+    val masks =
+      Array(SolidMask, FrontMask(SolidMask), StochasticMask(ConstantFloat(0.5f), separate = true))
     Primitives(soup, Array.empty, Instances.Empty, Masks(masks, Array.empty))
 
   /** Sets of triangles alone: each hard in its own way. */

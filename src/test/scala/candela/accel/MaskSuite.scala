@@ -104,7 +104,7 @@ class MaskSuite extends AnyFunSuite:
     val draws = Draws(1)
     for alpha <- Seq(0f, 0.2f, 0.7f, 1f) do
       val disk = Disk(Transform.Identity, 0f, 1f, 0f, TwoPi, false)
-      val masks = Masks(Array.empty, Array(StochasticMask(ConstantFloat(alpha))))
+      val masks = Masks(Array.empty, Array(StochasticMask(ConstantFloat(alpha), separate = false)))
       val world = Bvh(Primitives(Soups.Empty, Array(disk), Instances.Empty, masks))
       val n = 20000
       var met = 0
@@ -117,18 +117,27 @@ class MaskSuite extends AnyFunSuite:
       val bound = 5 * Math.sqrt(n * alpha * (1.0 - alpha))
       assert(Math.abs(met - n * alpha) <= bound + 1e-3, s"$met of $n at $alpha")
 
-  test("two veils one behind the other are passed independently"):
+  /** How many of 20,000 rays meet one of two veils. */
+  private def countMet(alphas: Seq[Float], separate: Boolean): Int =
     val draws = Draws(2)
     val disks = Array(0f, -0.5f).map(z => Disk(Transform.Identity, z, 1f, 0f, TwoPi, false))
-    val mask = StochasticMask(ConstantFloat(0.5f))
-    val masks = Masks(Array.empty, Array(mask, mask))
+    val veils = alphas.map(a => StochasticMask(ConstantFloat(a), separate))
+    val masks = Masks(Array.empty, Array(veils*))
     val world =
       Bvh(Primitives(Soups.Empty, disks.map(d => d), Instances.Empty, masks))
-    val n = 20000
-    val met = (0 until n).count: _ =>
+    (0 until 20000).count: _ =>
       world.isOccluded(down(draws.between(-0.5f, 0.5f), draws.between(-0.5f, 0.5f)), hit)
-    // Five standard deviations of a binomial count
-    assert(Math.abs(met - 0.75 * n) < 5 * Math.sqrt(n * 0.75 * 0.25))
+
+  /** Within five standard deviations of a binomial count. */
+  private def assertShare(met: Int, p: Double): Unit =
+    assert(Math.abs(met - p * 20000) < 5 * Math.sqrt(20000 * p * (1 - p))): Unit
+
+  test("two veils one behind the other are passed independently"):
+    assertShare(countMet(Seq(0.5f, 0.5f), separate = true), 0.75)
+
+  test("a ray that passes a veil of pbrt-v4 passes all of no higher alpha"):
+    assertShare(countMet(Seq(0.5f, 0.5f), separate = false), 0.5)
+    assertShare(countMet(Seq(0.3f, 0.6f), separate = false), 0.6)
 
   test("scenes without holes are traced through primitives that know of none"):
     val corners = triangles(SolidMask)

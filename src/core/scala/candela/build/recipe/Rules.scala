@@ -36,6 +36,7 @@ import candela.textures.{TexelBands, Texels}
   * @param opens     whether light passes interfaces of media, also where integrators ignore media
   * @param goesBeneath whether `path` follows light beneath surfaces
   * @param skyCovers whether the sky is opaque
+  * @param separatesAlpha whether a ray passes each surface with alpha by a chance of its own
   * @param defaultsToIndependent whether independent samples are what scenes have that don't choose
   */
 final case class Rules(
@@ -64,6 +65,7 @@ final case class Rules(
     opens: Boolean = false,
     goesBeneath: Boolean = false,
     skyCovers: Boolean = false,
+    separatesAlpha: Boolean = false,
     defaultsToIndependent: Boolean = false
 )
 
@@ -121,6 +123,7 @@ object Rules:
     passes = true,
     goesBeneath = true,
     skyCovers = true,
+    separatesAlpha = true,
     defaultsToIndependent = true
   )
 
@@ -137,5 +140,6 @@ object Rules:
     clips = true,
     fade = Fade.Square,
     facesEmitters = true,
-    opens = true
+    opens = true,
+    separatesAlpha = true
   )

@@ -81,7 +81,7 @@ abstract class ShapeRecipe(
     geometry().map: geometry =>
       val holes = holesOf(alpha)
       if site.dialect == Dialect.V4 then
-        val mask = holes.fold(SolidMask)(StochasticMask(_))
+        val mask = holes.fold(SolidMask)(StochasticMask(_, site.rules.separatesAlpha))
         ShapePlan(geometry, if isOpenBehind() then FrontMask(mask) else mask, emitter(holes))
       else
         val inShadow = holesOf(shadowAlpha)
