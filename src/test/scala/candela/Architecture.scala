@@ -73,7 +73,9 @@ object Architecture:
       )
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val models =
-    common ++ Set("build.shapes", "geometry", "image", "scenefile", "settings", "job")
+    common ++ Set(
+      "build.media", "build.shapes", "geometry", "image", "scenefile", "settings", "job"
+    )
   private val towers = (runtime ++ file).toSet
   private val job = towers ++ bridge ++ Set("mitsuba", "measure")
 

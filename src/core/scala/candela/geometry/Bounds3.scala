@@ -14,6 +14,11 @@ final case class Bounds3(min: Vec3, max: Vec3):
   def extent: Vec3 = max - min
   def center: Vec3 = (min + max) * 0.5f
 
+  def overlaps(b: Bounds3): Boolean =
+    min.x <= b.max.x && max.x >= b.min.x &&
+      min.y <= b.max.y && max.y >= b.min.y &&
+      min.z <= b.max.z && max.z >= b.min.z
+
   /** With its faces moved outwards. */
   def grown(by: Float): Bounds3 =
     val d = Vec3(by, by, by)

@@ -1,5 +1,6 @@
 package candela.job
 
+import candela.build.media.Interiors
 import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import candela.io.{InputFile, IoReason, SceneFolder}
 import candela.mitsuba.MitsubaScene
@@ -17,7 +18,8 @@ import scala.util.Using
   */
 object CameraFile:
 
-  /** The scene with the camera of the file that the user has named, if any.
+  /** The scene with the camera of the file that the user has named, if any, and with the medium
+    * around it.
     *
     * @throws SceneError if the file is missing or wrong
     */
@@ -25,7 +27,7 @@ object CameraFile:
       scene: SceneDescription,
       within: SceneFolder,
       reading: ReadSettings
-  ): SceneDescription = reading.camera.fold(scene): name =>
+  ): SceneDescription = reading.camera.fold(Interiors.aroundCamera(scene)): name =>
     val file = existing(name)
     // The user has named it, so an untrusted scene's may be anywhere
     val folder = SceneFolder.of(file, allowance = within.allowance)
@@ -33,7 +35,7 @@ object CameraFile:
     val isSensor = text.stripPrefix("\uFEFF").stripLeading.startsWith("<")
     val viewed =
       if isSensor then ofSensor(scene, file, folder, text, reading)
-      else CameraStatements.applied(scene, Source.fromText(name, text), folder)
+      else ofStatements(scene, name, text, folder)
     viewed.copy(
       sources = viewed.sources :+ file,
       warnings = viewed.warnings ++ mirroring(scene, viewed, name)
@@ -60,7 +62,16 @@ object CameraFile:
     * @throws SceneError if the text has errors
     */
   def ofText(scene: SceneDescription, name: String, text: String): SceneDescription =
-    CameraStatements.applied(scene, Source.fromText(name, text), scene.folder)
+    ofStatements(scene, name, text, scene.folder)
+
+  private def ofStatements(
+      scene: SceneDescription,
+      name: String,
+      text: String,
+      folder: SceneFolder
+  ): SceneDescription =
+    val source = Source.fromText(name, text)
+    CameraStatements.applied(scene, source, folder, Interiors.aroundCamera)
 
   private def existing(name: String): Path =
     val file =

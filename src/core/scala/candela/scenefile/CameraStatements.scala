@@ -10,12 +10,14 @@ object CameraStatements:
     * has it; if it has no `Camera`, the scene's moves. What the scene places by its camera stays.
     *
     * @param folder that names of files are relative to
+    * @param placed  finds the medium around the camera, if the text doesn't say it
     * @throws SceneError if the text has errors
     */
   def applied(
       scene: SceneDescription,
       source: Source,
-      folder: SceneFolder
+      folder: SceneFolder,
+      placed: SceneDescription => SceneDescription
   ): SceneDescription =
     val run = ParserRun(
       source,
@@ -37,15 +39,15 @@ object CameraStatements:
       throw SceneError(Problem.error(Code.MissingParameter, SourcePos(source.name, 1, 1), message))
     val idle = run.cameraDirectives.drop(names.lastIndexOf("Camera") + 1).find: (name, _) =>
       names.contains("Camera") && Transforms(name)
-    scene.copy(
+    val framed = scene.copy(
       camera = viewed.camera,
       worldToCamera = viewed.worldToCamera,
-      cameraMedium =
-        if names.contains("MediumInterface") then viewed.cameraMedium else scene.cameraMedium,
       warnings = scene.warnings ++ warnings ++ idle.map: (name, at) =>
         val help = Some("write it before `Camera`")
         Problem.warning(Code.WrongPlace, at, s"$name after `Camera` has no effect", help)
     )
+    if names.contains("MediumInterface") then framed.copy(cameraMedium = viewed.cameraMedium)
+    else placed(framed)
 
   private[scenefile] val Transforms: Set[String] =
     Set("LookAt", "Identity", "Translate", "Scale", "Rotate", "Transform", "ConcatTransform")

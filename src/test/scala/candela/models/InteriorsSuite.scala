@@ -3,12 +3,14 @@ package candela.models
 import candela.aov.Layer
 import candela.build.SceneBuilder
 import candela.image.Image
+import candela.job.CameraFile
 import candela.render.Renderer
 import candela.scenefile.{Resolution, SceneDescription}
 import candela.settings.{ReadSettings, RenderSettings}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import java.nio.file.Files
 import java.nio.{ByteBuffer, ByteOrder}
 
 /** Which medium is where in a model. */
@@ -16,15 +18,18 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
   private val Absorption = 0.5
 
   /** Unit cubes whose faces point outwards; the last one lacks a face. */
-  private val corners = floats((for
-    x <-
-      0 to 1;
-    y <-
-      0 to 1;
-    z <-
-      0 to 1;
-    c <- Vector(x, y, z)
-  yield c.toDouble)*)
+  private val corners = floats(unit*)
+  private val innerCorners = floats(unit.map(0.25 + 0.5 * _)*)
+  private def unit =
+    for
+      x <-
+        0 to 1;
+      y <-
+        0 to 1;
+      z <-
+        0 to 1;
+      c <- Vector(x, y, z)
+    yield c.toDouble
   private val faces = Vector(0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6,
     0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3)
 
@@ -50,16 +55,22 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
       camera: String = Perspective,
       indices: Vector[Int] = faces
   ): String =
-    val bytes = corners ++ shorts(indices)
+    // The second mesh is within the first, the third has both
+    def primitive(position: Int) =
+      s"""{"attributes":{"POSITION":$position},"indices":1,"material":0}"""
+    val bytes = corners ++ shorts(indices) ++ innerCorners
     s"""{"asset":{"version":"2.0"},"nodes":[${nodes.mkString(",")}],"cameras":[{"type":$camera}],
        |"scenes":[{"nodes":[${nodes.indices.mkString(",")}],
        |"extras":{"candela":{"environment":{"radiance":[1,1,1]}}}}],
        |"materials":[{"extras":{"candela":{"medium":{$medium}}}$material}],
-       |"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+       |"meshes":[{"primitives":[${primitive(0)}]},{"primitives":[${primitive(2)}]},
+       |{"primitives":[${primitive(0)},${primitive(2)}]}],
        |"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],
        |"max":[1,1,1]},{"bufferView":1,"componentType":5123,"count":${indices.size},
-       |"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":96},
-       |{"buffer":0,"byteOffset":96,"byteLength":${2 * indices.size}}],
+       |"type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":8,"type":"VEC3",
+       |"min":[0.25,0.25,0.25],"max":[0.75,0.75,0.75]}],"bufferViews":[{"buffer":0,"byteLength":96},
+       |{"buffer":0,"byteOffset":96,"byteLength":${2 * indices.size}},
+       |{"buffer":0,"byteOffset":${96 + 2 * indices.size},"byteLength":96}],
        |"buffers":[{"byteLength":${bytes.length},"uri":"${uri(bytes)}"}]}""".stripMargin
 
   private val Cube = """{"mesh":0}"""
@@ -136,8 +147,64 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
     assert(warnings(within).isEmpty)
     val across = meeting(1.5)
     assert(across.shapes.forall(_.outsideMedium.isEmpty))
-    assert(warnings(across) == Vector("/meshes/0/primitives/0: this mesh meets the box of " +
-      "another medium, which may not be seen behind it"))
+    assert(warnings(across) == Vector("/meshes/0/primitives/0: this mesh meets another " +
+      "medium, which may not be seen behind it"))
+
+  private val Inner = """{"mesh":1}"""
+
+  test("a mesh within others borders on the innermost, also in each instance"):
+    for nodes <- Seq(Seq(Cube, Inner), Seq(Inner, Cube), Seq("""{"mesh":2}""")) do
+      assertRadiance(cubes(Camera +: nodes), Math.exp(-Absorption))
+    val beside = """{"mesh":2,"translation":[3,0,0]}"""
+    assertRadiance(cubes(Seq(Camera, """{"mesh":2}""", beside)), Math.exp(-Absorption))
+    // Of other absorption
+    val box = fog(box = "-1,-1,-1,2,2,2")
+    val s = read(cubes(Seq(Camera, Cube, Inner, box)))
+    val media = s.shapes.map(m => m.shape.pos.file.dropWhile(_ != '#') -> m.outsideMedium).toMap
+    val names = s.media.map(m => m.medium.name -> m.name).toMap
+    assert(media("#/meshes/0/primitives/0") == names("nanovdb"))
+    assert(media("#/meshes/1/primitives/0") == names("homogeneous"))
+    assert(warnings(s).isEmpty)
+
+  test("meshes that cross or touch are a warning, and such as only their boxes meet are none"):
+    val message = "/meshes/1/primitives/0: this mesh meets another medium, which may not be seen " +
+      "behind it"
+    def beside(transform: String) =
+      warnings(read(cubes(Seq(Camera, Cube, s"""{"mesh":1,$transform}"""))))
+    // A bar through the cube, none of whose vertices is within it
+    val across = Vector(
+      """"scale":[0.5,0.5,3],"translation":[0,0,-1]""",
+      """"scale":[3,0.1,0.1],"translation":[-1,0.3,0.3]""",
+      """"translation":[0.5,0,0]""",
+      """"translation":[0.25,0,0]""",
+      """"translation":[0.75,0.2,0.1]"""
+    )
+    for transform <- across do assert(beside(transform) == Vector(message), transform)
+    // A corner beside an edge
+    val turned = """"rotation":[0,0,0.38268,0.92388],"translation":[1.2,0.6,0]"""
+    for transform <- Vector(turned, """"translation":[0.76,0,0]""") do
+      assert(beside(transform).isEmpty, transform)
+
+  test("a mesh whose faces are wound inwards is a warning"):
+    val inwards = faces.grouped(3).flatMap(_.reverse).toVector
+    assert(warnings(read(cubes(Seq(Camera, Cube), indices = inwards))) ==
+      Vector("/meshes/0/primitives/0: the faces of this mesh are wound inwards, so that its " +
+        "medium is outside"))
+
+  test("the medium is that around the camera of a file"):
+    val file = Files.createTempFile("camera", ".pbrt")
+    def around(text: String, node: String = Camera) =
+      Files.writeString(file, text): Unit
+      val reading = ReadSettings(camera = Some(file.toString))
+      read(cubes(Seq(node, Cube)), reading = reading).cameraMedium
+    val within = """{"camera":0,"translation":[0.5,0.5,0.5]}"""
+    try
+      assert(around("LookAt 0.5 0.5 0.6 0.5 0.5 0 0 1 0").nonEmpty)
+      assert(around("LookAt 0.5 0.5 6 0.5 0.5 0 0 1 0\nCamera \"perspective\"", within).isEmpty)
+      assert(around("MediumInterface \"\" \"\"\nCamera \"perspective\"", within).isEmpty)
+    finally Files.delete(file)
+    val moved = CameraFile.ofText(read(cubes(Seq(within, Cube))), "camera", "Translate 0 0 9")
+    assert(moved.cameraMedium.isEmpty)
 
   test("boxes that overlap or touch are a warning"):
     def boxes(x: Double) =

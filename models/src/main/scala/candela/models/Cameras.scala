@@ -2,7 +2,7 @@ package candela.models
 
 import candela.diagnostics.SourcePos
 import candela.io.FileName
-import candela.math.{Transform, Vec3}
+import candela.math.Transform
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
 /** Translates cameras. */
@@ -98,18 +98,6 @@ private[models] object View:
   def size(aspect: Double): (Int, Int) =
     if aspect >= 1 then (LongerSide, Math.max(1, Math.rint(LongerSide / aspect).toInt))
     else (Math.max(1, Math.rint(LongerSide * aspect).toInt), LongerSide)
-
-  /** Where rays of the middle and the corners of the image begin, in the space of the camera. */
-  def rayStarts(scene: SceneDescription): Vector[Vec3] = scene.camera.toVector.flatMap: camera =>
-    def number(name: String) = camera.param(name).fold(0f)(_.floats.head)
-    val near = number("nearclip")
-    val scale =
-      if camera.name == "orthographic" then 1f
-      else near * Math.tan(Math.toRadians(number("fov") / 2.0)).toFloat
-    val window = camera.param("screenwindow").fold(Array(-1f, 1f, -1f, 1f))(_.floats)
-    val Array(left, right, bottom, top) = window.map(_ * scale): @unchecked
-    val corners = for x <- Vector(left, right); y <- Vector(bottom, top) yield Vec3(x, y, near)
-    Vec3((left + right) / 2, (bottom + top) / 2, near) +: corners
 
   /** With the number in the name of its image. */
   def numbered(scene: SceneDescription, session: Session, n: Int): SceneDescription =

@@ -1,5 +1,6 @@
 package candela.models
 
+import candela.build.media.Interiors
 import candela.diagnostics.Code
 import candela.math.Transform
 import candela.scenefile.{
@@ -34,7 +35,8 @@ private[models] object GltfScene:
     val framed = Option.when(times.isDefined && world > 0)(reader(0).result(sensor))
     val isWhole = current.environment.isDefined
     val complete = Studio.complete(model, session, reading, world, isWhole, framed)
-    val placed = Interiors(complete, session).result
+    val (placed, flaws) = Interiors.bordered(complete)
+    flaws.foreach(session.report)
     val scene = times.fold(placed): t =>
       View.numbered(placed, session, world).copy(isFollowed = world + 1 < t.count)
     session.finished(scene)
