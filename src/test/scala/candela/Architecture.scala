@@ -68,9 +68,8 @@ object Architecture:
   private val report = measure + "measure"
   private val convert =
     measure ++
-      "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling scenefile shapes".split(
-        ' '
-      )
+      Set("build.media", "scenefile", "shapes") ++
+      "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling".split(' ')
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val models =
     common ++ Set(

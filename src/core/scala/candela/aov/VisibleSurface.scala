@@ -66,7 +66,7 @@ final class VisibleSurface(
   def trace(from: Ray, sample: Int = 0): Unit =
     this.sample = sample
     if ownFirst != null then ownFirst.trace(from)
-    ray.set(from.origin, from.direction, Float.PositiveInfinity)
+    ray.set(from.origin, from.direction, from.tMax)
     ray.time = from.time
     ray.differential.copy(from.differential)
     val media = ownMedia

@@ -1,6 +1,7 @@
 package candela.convert
 
 import candela.base.loop
+import candela.build.media.Interiors
 import candela.color.{Cauchy, Rgb}
 import candela.diagnostics.{Code, Problem}
 import candela.image.{Image, ImageError, ImageFiles}
@@ -23,7 +24,9 @@ private[convert] object FromGltf:
 
   def converted(scene: SceneDescription, files: SideFiles): Converted =
     val run = Run(scene, files)
-    val solid = scene.copy(shapes = scene.shapes.map(run.solidLight))
+    val unclipped = run.unclipped
+    (unclipped.shapes ++ unclipped.objects.values.flatten).foreach(run.openedMedium)
+    val solid = unclipped.copy(shapes = unclipped.shapes.map(run.solidLight))
     val plain = Declarations.map(solid)(run.plain)
     val named = plain.namedMaterials.flatMap(run.material)
     val result = plain.copy(
@@ -46,12 +49,35 @@ private[convert] object FromGltf:
         case "Shape" => shape(filed)
         case "Texture" => texture(filed)
         case "AreaLightSource" => areaLight(filed)
-        case "Camera" => withoutParams(filed, "", "nearclip", "farclip")
         case "LightSource" =>
           if d.name == "spot" && d.param("falloff").isEmpty then
             warn(d, "a \"spot\" fades along another curve in pbrt")
           withoutParams(visibleLight(filed), "", "falloff")
         case _ => filed
+
+    /** The scene with rays that begin at the camera itself. */
+    def unclipped: SceneDescription =
+      def isClip(p: Param) = p.name == "nearclip" || p.name == "farclip"
+      val clips = scene.camera.toVector.flatMap(_.params).filter(isClip)
+      for p <- clips do
+        val isDistant = p.floats.forall(z => z < 1e-6f || z >= 1e30f)
+        // Cameras that were added have no place in the model
+        val isWritten = p.pos.line > 0 || p.pos.file.contains('#')
+        if isWritten && !isDistant then
+          warn(p, s"pbrt's cameras have no `${p.name}`; nothing is clipped")
+      def camera(near: Option[Param]) =
+        scene.camera.map(c => c.copy(params = c.params.filterNot(isClip) ++ near))
+      if clips.isEmpty then scene
+      else
+        val near = Param.float("nearclip", clips.head.pos, 0f)
+        Interiors.aroundCamera(scene.copy(camera = camera(Some(near)))).copy(camera = camera(None))
+
+    def openedMedium(s: ShapeDescription): Unit =
+      for alpha <- s.shape.param("alpha") if s.insideMedium.nonEmpty do
+        val material = s.material match
+          case MaterialRef.Named(name, _) => s" of material `$name`"
+          case _ => ""
+        warn(alpha, s"pbrt has no medium$material where alpha opens its surface")
 
     /** With the files that are within the model written beside the scene. */
     private def extracted(d: Declaration): Declaration =

@@ -123,3 +123,30 @@ class FromGltfSuite extends AnyFunSuite:
                     |"string wrap" "repeat" "string wrapt" "clamp"""".stripMargin
     val warnings = converted(""""float iridescence" 1""", texture)._2
     assert(warnings.exists(_.contains("`iridescence`")) && warnings.exists(_.contains("`wrapt`")))
+
+  test("clip planes and media behind alpha are warnings, and the camera's medium is at itself"):
+    TempFolder.use: folder =>
+      val parsed = SceneTexts.parse(
+        """Camera "perspective" "float nearclip" 3 "float farclip" 9
+          |WorldBegin
+          |MakeNamedMedium "fog" "string type" "homogeneous"
+          |MediumInterface "fog" ""
+          |MakeNamedMaterial "glass" "string type" "dielectric"
+          |NamedMaterial "glass"
+          |Shape "trianglemesh" "point3 P" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1
+          |  1 -1 1 -1 1 1 1 1 1]
+          |  "integer indices" [0 2 3 0 3 1 4 5 7 4 7 6 0 4 6 0 6 2
+          |  1 3 7 1 7 5 0 1 5 0 5 4 2 6 7 2 7 3]
+          |  "float alpha" 0.5""".stripMargin,
+        Dialect.V4,
+        folder
+      )
+      val scene = parsed.copy(dialect = Dialect.Gltf, cameraMedium = "")
+      val result = Converter.convert(scene, Dialect.V4, folder)
+      assert(result.scene.cameraMedium == "fog")
+      val messages = result.warnings.map(_.message)
+      for name <- Vector("nearclip", "farclip") do
+        assert(messages.contains(s"pbrt's cameras have no `$name`; nothing is clipped"), messages)
+      assert(
+        messages.contains("pbrt has no medium of material `glass` where alpha opens its surface")
+      )

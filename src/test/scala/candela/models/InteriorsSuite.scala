@@ -150,6 +150,16 @@ class InteriorsSuite extends AnyFunSuite, GltfModels:
     assert(warnings(across) == Vector("/meshes/0/primitives/0: this mesh meets another " +
       "medium, which may not be seen behind it"))
 
+  test("what zfar clips covers nothing"):
+    val camera = """"orthographic","orthographic":{"xmag":0.1,"ymag":0.1,"znear":0.1,"zfar":3}"""
+    val clipped = image(
+      cubes(Seq(Camera, Cube), Inside, camera = camera),
+      RenderSettings(layers = Vector(Layer.Alpha, Layer.Depth))
+    )
+    for name <- Vector("A", "Z") do
+      val c = clipped.channelNames.indexOf(name)
+      assert(c >= 0 && (0 until 16).forall(i => clipped.data(i * clipped.channels + c) == 0f), name)
+
   private val Inner = """{"mesh":1}"""
 
   test("a mesh within others borders on the innermost, also in each instance"):

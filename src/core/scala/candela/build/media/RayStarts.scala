@@ -9,7 +9,7 @@ private[media] object RayStarts:
   def apply(scene: SceneDescription): Vector[Vec3] = scene.camera.toVector.flatMap: camera =>
     def number(name: String, default: Float) =
       camera.param(name).flatMap(_.floats.headOption).getOrElse(default)
-    val near = if Projective(camera.name) then number("nearclip", 0f) else 0f
+    val near = if Projective(camera.name) then number("nearclip", 0.01f) else 0f
     val scale =
       if camera.name == "orthographic" then 1f
       else near * Math.tan(Math.toRadians(number("fov", 90f) / 2.0)).toFloat
