@@ -438,6 +438,46 @@ def added(made):
     tree.links.new(add.outputs[0], output.inputs["Volume"])
 
 
+def on_floor(made, kind, factor=0.5):
+    """Gives the floor a surface: a shader, or its own mixed with that one."""
+    tree = made.floor.data.materials[0].node_tree
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    shader = tree.nodes.new(f"ShaderNode{kind}")
+    if factor is not None:
+        mix = tree.nodes.new("ShaderNodeMixShader")
+        mix.inputs[0].default_value = factor
+        tree.links.new(output.inputs["Surface"].links[0].from_socket, mix.inputs[1])
+        tree.links.new(shader.outputs[0], mix.inputs[2])
+        shader = mix
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    return tree
+
+
+def unpainted(made):
+    """A ball without a material, and one with an empty slot."""
+    made.ball.data.materials.clear()
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5, location=(1.5, 0, 0.5))
+    bpy.context.object.data.materials.append(None)
+
+
+def without_surface(made):
+    tree = made.floor.data.materials[0].node_tree
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    tree.links.remove(output.inputs["Surface"].links[0])
+
+
+def muted(made):
+    made.floor.data.materials[0].node_tree.nodes["Principled BSDF"].mute = True
+    made.background.inputs["Strength"].default_value = 5
+    made.background.mute = True
+
+
+def without_image(made):
+    shader, node = image_node(made, 2)
+    node.image = None
+    shader.id_data.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+
+
 SCENES = {
     "world": lambda: Scene(0.6),
     "sensor fitted": lambda: lit(lens=35),
@@ -475,6 +515,14 @@ SCENES = {
     "transparent film": lambda: changed(lit(), without_floor),
     "emission": lambda: changed(Scene(), glowing),
     "image": lambda: changed(lit(world=1), papered),
+    "no material": lambda: changed(lit(), unpainted),
+    "no surface": lambda: changed(lit(), without_surface),
+    "muted nodes": lambda: changed(lit(), muted),
+    "no image": lambda: changed(lit(), without_image),
+    "transparent": lambda: changed(lit(), lambda made: on_floor(made, "BsdfTransparent", None)),
+    "mixed with transparent": lambda: changed(
+        lit(), lambda made: on_floor(made, "BsdfTransparent", 0.7)
+    ),
     "exposure of the view": lambda: changed(lit(), graded),
     "border": lambda: changed(lit(), bordered),
     "volume": lambda: clouded(Color=(0.9, 0.6, 0.3, 1), Density=3),
@@ -707,6 +755,92 @@ class Exporting(unittest.TestCase):
             self.assertTrue(any(name in text for text in warnings), (name, warnings))
         _, none = lit().export()
         self.assertEqual(none, [])
+
+    def test_what_gltf_reads_otherwise_is_named_with_its_material_and_node(self):
+        def warnings(change):
+            made = lit()
+            tree = made.floor.data.materials[0].node_tree
+            shader = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
+            change(made, tree, shader)
+            return made.export()[1]
+
+        def set_input(name, value):
+            return lambda made, tree, shader: setattr(shader.inputs[name], "default_value", value)
+
+        def linked(kind, name, output=0, **fields):
+            def change(made, tree, shader):
+                node = tree.nodes.new(f"ShaderNode{kind}")
+                for field, value in fields.items():
+                    setattr(node, field, value)
+                tree.links.new(node.outputs[output], shader.inputs[name])
+
+            return change
+
+        def mapped(made, tree, shader):
+            papered(made)
+            mapping = tree.nodes.new("ShaderNodeMapping")
+            mapping.inputs["Rotation"].default_value[0] = 1
+            node = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+            tree.links.new(mapping.outputs[0], node.inputs[0])
+
+        def tinted(made, tree, shader):
+            on_floor(made, "BsdfTransparent")
+            node = next(n for n in tree.nodes if n.type == "BSDF_TRANSPARENT")
+            node.inputs[0].default_value = (1, 0.5, 0.5, 1)
+
+        def muted(made, tree, shader):
+            papered(made)
+            next(n for n in tree.nodes if n.type == "TEX_IMAGE").mute = True
+
+        def muted_link(made, tree, shader):
+            papered(made)
+            next(link for link in tree.links if link.to_node == shader).is_muted = True
+
+        def lost_file(made, tree, shader):
+            papered(made)
+            image = next(n for n in tree.nodes if n.type == "TEX_IMAGE").image
+            image.source, image.filepath = "FILE", "//no such file.png"
+            image.reload()
+
+        unread = "glTF has no node {}; rendered without".format
+        lost = "{} of node 'Principled BSDF' is not supported".format
+        is_muted = "{} is muted, but used".format
+        for change, text in (
+            (lambda made, *_: on_floor(made, "BsdfGlossy"), unread("'Glossy BSDF', 'Mix Shader'")),
+            (lambda made, *_: on_floor(made, "Emission"), unread("'Mix Shader'")),
+            (tinted, "the color of node 'Transparent BSDF' is not supported; white is used"),
+            (linked("Math", "Roughness", operation="SUBTRACT"), unread("'Math'")),
+            (linked("Mix", "Base Color", 2, data_type="RGBA"), unread("'Mix'")),
+            (linked("VertexColor", "Emission Color"), unread("'Color Attribute'")),
+            (mapped, unread("'Mapping'")),
+            (muted, is_muted("node 'Image Texture'")),
+            (muted_link, is_muted("a link to node 'Principled BSDF'")),
+            (lambda made, *_: without_image(made), "node 'Image Texture': it has no image"),
+            (lost_file, "node 'Image Texture': image 'wood' can't be read"),
+            (set_input("Diffuse Roughness", 0.5), lost("Diffuse Roughness")),
+            (set_input("Subsurface Weight", 0.5), lost("Subsurface Weight")),
+            (set_input("Thin Film Thickness", 300), lost("Thin Film Thickness")),
+            (set_input("Base Color", (2, 1, 1, 1)), lost("Base Color above 1")),
+            (linked("Value", "IOR"), lost("a linked IOR")),
+            (set_input("Coat IOR", 2), None),
+            (set_input("Alpha", 0.5), None),
+            (lambda made, *_: on_floor(made, "BsdfTransparent"), None),
+        ):
+            with self.subTest(text):
+                expected = [f"material 'Plane': {text}"] if text else []
+                self.assertEqual(warnings(change), expected)
+
+    def test_holdouts_and_shadow_catchers_are_named(self):
+        made = lit()
+        made.ball.is_holdout = made.floor.is_shadow_catcher = True
+        texts = made.export()[1]
+        self.assertEqual(
+            sorted(texts),
+            [
+                "object 'Plane' is a shadow catcher in Cycles; rendered as others",
+                "object 'Sphere' is a holdout in Cycles; rendered as others",
+            ],
+        )
 
     def test_images_that_gltf_reads_in_another_way_are_named(self):
         made = lit()

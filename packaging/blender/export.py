@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from . import lights, materials, media, volumes, world
+from . import lights, materials, media, surfaces, volumes, world
 
 FILE = "scene.glb"
 
@@ -25,6 +25,7 @@ class _Export:
         self.has_camera = False
         # The exporter fails on temperatures and on power by area: it sees none
         self.lights = {light.name: lights.Power(light) for light in bpy.data.lights}
+        self.unassigned = None  # the material of what has none
         self.failure = None  # the exporter only logs exceptions of hooks
 
 
@@ -40,6 +41,9 @@ class glTF2ExportUserExtension:
 
     def gather_material_hook(self, gltf_material, blender_material, export_settings):
         _run(_add_to_material, gltf_material, blender_material)
+
+    def gather_mesh_hook(self, mesh, *_):
+        _run(_add_to_mesh, mesh)
 
     def gather_scene_hook(self, scene, blender_scene, export_settings):
         _run(_add_to_scene, scene, blender_scene)
@@ -68,11 +72,19 @@ def _add_to_material(gltf_material, blender_material):
     gltf_material.double_sided = True  # Cycles culls no faces
     if blender_material is None:
         return
+    surfaces.mend(gltf_material, blender_material)
     medium = media.of(blender_material, (), _current.warn)
     if medium is not None:
         emission = {"emission": list(medium.emission)} if any(medium.emission) else {}
         surface = {} if media.is_surface(blender_material) else {"surface": False}
         _add(gltf_material, "medium", {**medium.fields(), **emission, **surface})
+
+
+def _add_to_mesh(mesh):
+    for primitive in mesh.primitives:
+        if primitive.material is None:
+            _current.unassigned = _current.unassigned or surfaces.unassigned()
+            primitive.material = _current.unassigned
 
 
 def _add_to_scene(scene, blender_scene):

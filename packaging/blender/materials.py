@@ -2,15 +2,20 @@
 
 import numpy as np
 
-from .nodes import linked, output_of, source, tree_of, upstream
+from . import surfaces
+from .nodes import linked, muted, output_of, source, tree_of, unlinked, upstream
 
 # Those that the exporter reads
 _NODES = {
-    "ATTRIBUTE", "BSDF_PRINCIPLED", "BSDF_TRANSPARENT", "BACKGROUND", "EMISSION", "GROUP",
-    "GROUP_INPUT", "GROUP_OUTPUT", "LIGHT_PATH", "MAPPING", "MATH", "MIX", "MIX_RGB", "MIX_SHADER",
-    "NORMAL_MAP", "OUTPUT_MATERIAL", "RGB", "SEPARATE_COLOR", "SEPRGB", "TEX_COORD", "TEX_IMAGE",
-    "UVMAP", "VALUE", "VERTEX_COLOR",
+    "ATTRIBUTE", "BSDF_PRINCIPLED", "EMISSION", "GROUP", "GROUP_INPUT", "GROUP_OUTPUT", "MAPPING",
+    "MATH", "MIX", "NORMAL_MAP", "OUTPUT_MATERIAL", "RGB", "SEPARATE_COLOR", "SEPRGB", "TEX_COORD",
+    "TEX_IMAGE", "UVMAP", "VALUE", "VERTEX_COLOR",
 }
+# Inputs of Principled BSDF that glTF lacks, with the values that have no effect
+_INPUTS = {"Diffuse Roughness": 0, "Subsurface Weight": 0, "Thin Film Thickness": 0}
+_COAT_INPUTS = {"Coat IOR": 1.5, "Coat Tint": (1, 1, 1, 1)}
+_CLIPS = ("ROUND", "SUBTRACT", "LESS_THAN", "GREATER_THAN")  # of alpha
+_FACTORS = ("RGB", "VALUE", "ATTRIBUTE", "VERTEX_COLOR")
 _DEPTHS_WITH_ALPHA = (32, 64, 128)  # bits of a pixel
 _GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 _INVISIBLE = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
@@ -44,6 +49,9 @@ def _check_object(each, warn):
         warn(f"the fluid of object '{each.name}' is not supported; left out")
     if each.type not in _INVISIBLE and not all(getattr(each, name) for name in _SHADOWLESS):
         warn(f"the ray visibility of object '{each.name}' is ignored")
+    for name, words in (("is_holdout", "a holdout"), ("is_shadow_catcher", "a shadow catcher")):
+        if each.type not in _INVISIBLE and getattr(each, name):
+            warn(f"object '{each.name}' is {words} in Cycles; rendered as others")
 
 
 def _check_material(material, warn):
@@ -53,13 +61,83 @@ def _check_material(material, warn):
         return
     if linked(output, "Displacement") is not None:
         warn(f"the displacement of material '{material.name}' is not supported; left out")
+    surface = surfaces.of(material)
+    if surface is None:
+        return
+
+    def tell(text):
+        warn(f"material '{material.name}': {text}")
+
     nodes = list(upstream(linked(output, "Surface")))
-    names = [node.name for node in nodes if node.type not in _NODES]
+    names = {node.name for node in _unread(nodes) if node not in surface.mixed}
     if names:
         listed = ", ".join(f"'{name}'" for name in sorted(names))
-        warn(f"material '{material.name}': glTF has no node {listed}; its default is used")
+        tell(f"glTF has no node {listed}; rendered without")
+    for name in muted(linked(output, "Surface")):
+        tell(f"{name} is muted, but used")
+    for node in surface.mixed:
+        if node.type == "BSDF_TRANSPARENT" and unlinked(node.inputs[0])[:3] != (1, 1, 1):
+            tell(f"the color of node '{node.name}' is not supported; white is used")
+    for node in nodes:
+        if surfaces.is_missing(node):
+            what = f"image '{node.image.name}' can't be read" if node.image else "it has no image"
+            tell(f"node '{node.name}': {what}")
+        for name in _lost_inputs(node) if node.type == "BSDF_PRINCIPLED" else ():
+            tell(f"{name} of node '{node.name}' is not supported")
     for name, change in sorted({*_other_alphas(nodes), *_other_spaces(nodes)}):
-        warn(f"material '{material.name}': image '{name}' is rendered with {change}")
+        tell(f"image '{name}' is rendered with {change}")
+
+
+def _unread(nodes):
+    """The nodes that the exporter reads otherwise than Cycles."""
+    shaders = [node for node in nodes if node.type in ("BSDF_PRINCIPLED", "EMISSION")]
+    yield from (node for node in nodes if node.type not in _NODES)
+    for shader in shaders:
+        for socket in shader.inputs:
+            for node in upstream(source(socket)):
+                if not _is_read(node, socket.name):
+                    yield node
+
+
+def _is_read(node, name):
+    """Whether the exporter understands a node on the way to the input of that name."""
+    if node.type == "MATH":
+        if node.operation == "MULTIPLY":
+            return _has_factor(node.inputs[:2])
+        return name == "Alpha" and node.operation in _CLIPS
+    if node.type == "MIX":
+        colors = [socket for socket in node.inputs if socket.enabled and socket.type == "RGBA"]
+        is_product = node.data_type == "RGBA" and node.blend_type == "MULTIPLY"
+        return is_product and unlinked(node.inputs[0]) == 1 and _has_factor(colors)
+    if node.type == "TEX_COORD":
+        return not any(socket.is_linked and socket.name != "UV" for socket in node.outputs)
+    if node.type == "MAPPING":
+        turns = unlinked(node.inputs["Rotation"])
+        return node.vector_type != "NORMAL" and turns is not None and turns[:2] == (0, 0)
+    if node.type == "TEX_IMAGE":
+        return node.projection == "FLAT" and node.extension != "CLIP"
+    if node.type in ("ATTRIBUTE", "VERTEX_COLOR"):
+        return name in ("Base Color", "Alpha")
+    return True
+
+
+def _has_factor(sockets):
+    nodes = [source(socket) for socket in sockets]
+    return any(node is None or node.type in _FACTORS for node in nodes)
+
+
+def _lost_inputs(node):
+    """The inputs of a Principled BSDF that glTF has no word for, by name."""
+    has_coat = unlinked(node.inputs["Coat Weight"]) != 0
+    for name, usual in (_INPUTS | (_COAT_INPUTS if has_coat else {})).items():
+        socket = node.inputs.get(name)
+        if socket is not None and unlinked(socket) != usual:
+            yield name
+    color = unlinked(node.inputs["Base Color"])
+    if color is not None and max(color[:3]) > 1:
+        yield "Base Color above 1"
+    if source(node.inputs["IOR"]) is not None:
+        yield "a linked IOR"
 
 
 def _other_alphas(nodes):

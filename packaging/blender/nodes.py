@@ -25,27 +25,64 @@ def linked(node, name):
 
 
 def source(socket):
-    """The node that a socket is linked to, through reroutes, or None."""
-    while socket.is_linked:
-        link = socket.links[0]
-        if link.is_muted:
-            return None
-        if link.from_node.type != "REROUTE":
-            return link.from_node
-        socket = link.from_node.inputs[0]
-    return None
+    """The node that a socket is linked to, through reroutes and muted nodes, or None."""
+    return _origin(socket)[1]
 
 
 def unlinked(socket):
     """The value of a socket, if it is constant: a number, or a tuple."""
-    node = source(socket)
+    end, node = _origin(socket)
     if node is None:
-        value = socket.default_value
+        value = end.default_value
     elif node.type in ("RGB", "VALUE"):
         value = node.outputs[0].default_value
     else:
         return None
     return value if isinstance(value, (int, float)) else tuple(value)
+
+
+def _origin(socket):
+    """The last socket on the way to the node that one is linked to, and that node or None."""
+    while socket.is_linked:
+        link = socket.links[0]
+        node = link.from_node
+        if link.is_muted:
+            break
+        if node.type == "REROUTE":
+            socket = node.inputs[0]
+        elif node.mute:
+            passed = [x.from_socket for x in node.internal_links if x.to_socket == link.from_socket]
+            if not passed:
+                break
+            socket = passed[0]
+        else:
+            return socket, node
+    return socket, None
+
+
+def muted(node):
+    """What is muted of what a node depends on, by name."""
+    seen, waiting = set(), [node]
+    while waiting:
+        each = waiting.pop()
+        if each in seen:
+            continue
+        seen.add(each)
+        if each.mute:
+            yield f"node '{each.name}'"
+        for link in (link for socket in each.inputs for link in socket.links):
+            waiting.append(link.from_node)
+            if link.is_muted:
+                yield f"a link to node '{each.name}'"
+        end = group_output(each)
+        if end is not None:
+            waiting.append(end)
+
+
+def group_output(node):
+    """The node that a group ends with, or None."""
+    is_group = node.type == "GROUP" and node.node_tree is not None
+    return output_of(node.node_tree, "GROUP_OUTPUT") if is_group else None
 
 
 def upstream(node):
@@ -58,5 +95,4 @@ def upstream(node):
         seen.add(each)
         yield each
         waiting += [source(socket) for socket in each.inputs if socket.enabled]
-        if each.type == "GROUP" and each.node_tree is not None:
-            waiting.append(output_of(each.node_tree, "GROUP_OUTPUT"))
+        waiting.append(group_output(each))
