@@ -830,6 +830,13 @@ class Exporting(unittest.TestCase):
                 expected = [f"material 'Plane': {text}"] if text else []
                 self.assertEqual(warnings(change), expected)
 
+    def test_area_lights_are_not_logged_as_unsupported(self):
+        made = lamp("AREA")
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            made.export()
+        self.assertIn("Starting glTF", printed.getvalue())
+        self.assertNotIn("Unsupported", printed.getvalue())
+
     def test_holdouts_and_shadow_catchers_are_named(self):
         made = lit()
         made.ball.is_holdout = made.floor.is_shadow_catcher = True

@@ -84,6 +84,8 @@ class InMemory(unittest.TestCase):
         a = scene.render(spp=1, define={"red": 0.2, "blue": 0.6})
         np.testing.assert_array_equal(a.rgb, candela.load_string(SCENE).render(spp=1).rgb)
         b = scene.render(spp=1, define={"red": 0.4, "blue": 0.6})
+        (problem,) = candela.check(scene, define={"blue": 0.6})
+        self.assertIn("found `$red`, which has no value (define={'red': …} sets it)", problem.text)
         # Colours become spectra: other channels change a little
         self.assertGreater(b.rgb[8, 12, 0], 1.5 * a.rgb[8, 12, 0])
         np.testing.assert_allclose(b.rgb[8, 12, 1:], a.rgb[8, 12, 1:], rtol=0.02)
@@ -254,6 +256,9 @@ class InMemory(unittest.TestCase):
             ((vertices, faces * 1.0), "faces must be n × 3 integers, found an array of 2 × 3 f"),
             ((vertices, faces + 1), "faces need indices from 0 to 3, found 1 to 4"),
             ((vertices, faces, up[1:]), "normals must be 4 × 3 numbers, found an array of 3 × 3"),
+            ((vertices * np.nan, faces), r"vertices\[0, 0\] must be a finite float32, found nan"),
+            ((vertices * 1e300, faces), r"vertices\[\d, \d\] must be a finite float32, found "),
+            ((vertices, faces, up * np.inf), r"normals\[0, \d\] must be a finite float32, found "),
             ((vertices, faces, None, up), "texcoords must be 4 × 2 numbers, found an array of 4"),
         ):
             with self.assertRaisesRegex(ValueError, message):

@@ -1,6 +1,7 @@
 """Writes the open scene as glTF by Blender's exporter; `extras.candela` has what that lacks."""
 
 import json
+import logging
 import math
 import struct
 from contextlib import contextmanager
@@ -184,7 +185,7 @@ def write(scene, view_layer, depsgraph, folder: Path, warn) -> Path:
         place = {"scene": scene, "view_layer": view_layer}
         if bpy.context.window is None:
             place["window"] = bpy.context.window_manager.windows[0]
-        with bpy.context.temp_override(**place), _as_rendered(scene, view_layer):
+        with bpy.context.temp_override(**place), _as_rendered(scene, view_layer), _quiet():
             bpy.ops.export_scene.gltf(
                 filepath=str(path),
                 export_format="GLB",
@@ -211,6 +212,21 @@ def write(scene, view_layer, depsgraph, folder: Path, warn) -> Path:
     if failure is not None:
         raise failure
     return path
+
+
+@contextmanager
+def _quiet():
+    """The exporter logs area lights as unsupported; `extras.candela` has them."""
+    logger = logging.getLogger("glTFImporter")
+
+    def is_right(record):
+        return not record.getMessage().startswith("Unsupported light source")
+
+    logger.addFilter(is_right)
+    try:
+        yield
+    finally:
+        logger.removeFilter(is_right)
 
 
 @contextmanager

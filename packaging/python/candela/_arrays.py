@@ -91,6 +91,9 @@ def _rows(name: str, values: Any, width: int, count: Any = "n", kinds: str = "fi
         numbers = "numbers" if "f" in kinds else "integers"
         expected = f"{count} × {width} {numbers}"
         raise ValueError(f"{name} must be {expected}, found {described(values)}")
+    odd = np.argwhere(~(np.abs(array) <= np.finfo("f4").max))
+    for row, column in odd[:1]:
+        raise ValueError(f"{name}[{row}, {column}] must be a finite float32, found {array[row, column]}")
     return array
 
 

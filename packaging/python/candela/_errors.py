@@ -98,6 +98,7 @@ _WORDS = {
 }
 
 _DEFAULT = re.compile(r'write <default name="(\w+)" value="…"/> before it, or use -D\w+=…')
+_DEFINE = re.compile(r"-D(\w+)=VALUE")
 _COLOR = "must be a colour or a texture, found a vector"
 _ELEMENT = re.compile(r'<(\w+) type="(\w+)">')
 _LINE = re.compile(r"scene\.xml:(\d+):\d+")
@@ -118,6 +119,7 @@ def in_python(line: str) -> str:
     for words, others in _WORDS.items():
         line = line.replace(words, others)
     line = _DEFAULT.sub(r"define={'\1': …} gives its value", line)
+    line = _DEFINE.sub(r"define={'\1': …}", line)
     line = _LONG.sub(r"found `\1…`", line)
     line = _HELP.sub(r"`help(candela.\1)` and COMMANDS.md say", line)
 
