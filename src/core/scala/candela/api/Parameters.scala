@@ -11,13 +11,14 @@ import scala.annotation.varargs
   * {{{
   * Parameters().rgb("reflectance", 0.8, 0.2, 0.1).number("roughness", 0.3)
   * }}}
-  * Arrays are not copied; they must not change later.
+  * Arrays are copied.
   */
 final class Parameters private (private val makers: Vector[SourcePos => Param]):
   private def plus(make: SourcePos => Param): Parameters = Parameters(makers :+ make)
 
   private def floats(kind: ParamType, name: String, values: Array[Float]): Parameters =
-    plus(Param.floats(kind, name, _, values))
+    val copy = values.clone
+    plus(Param.floats(kind, name, _, copy))
 
   /** Positions keep Double precision. */
   private def doubles(kind: ParamType, name: String, values: Array[Double]): Parameters =
@@ -40,7 +41,8 @@ final class Parameters private (private val makers: Vector[SourcePos => Param]):
 
   /** `"integer name" [ … ]`, such as the corners of a mesh's triangles. */
   def integers(name: String, values: Array[Int]): Parameters =
-    plus(at => Param(ParamType.Integer, name, at, at, ints = values))
+    val copy = values.clone
+    plus(at => Param(ParamType.Integer, name, at, at, ints = copy))
 
   /** `"bool name" true` */
   def bool(name: String, value: Boolean): Parameters = plus(Param.bool(name, _, value))

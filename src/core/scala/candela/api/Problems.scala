@@ -26,6 +26,10 @@ private[api] object Problems:
       case 1 => s"$first, and 1 more $noun"
       case more => s"$first, and $more more ${noun}s"
 
+  /** Made before: a full heap has no room for it. */
+  private val FullHeap =
+    SceneException(Vector(Costs(Vector.empty).problem(JavaHeap.limit, None)))
+
   /** Runs `body` and turns its errors into a [[SceneException]]. */
   def thrown[A](body: => A): A =
     try uninterrupted(body)
@@ -33,8 +37,7 @@ private[api] object Problems:
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
-      case _: OutOfMemoryError =>
-        throw SceneException(Vector(Costs(Vector.empty).problem(JavaHeap.limit, None)))
+      case _: OutOfMemoryError => throw FullHeap
 
   /** Runs `body`, unless its thread is interrupted, which remains so.
     *

@@ -13,12 +13,20 @@ object JavaHeap:
 
   /** How to raise a limit by an option of Java. */
   def raised(option: String): String =
-    val name = variable(sys.props.getOrElse("java.class.path", ""), sys.env)
-    s"raise the limit, e.g. with the environment variable $name=$option"
+    cure(option, sys.props.getOrElse("sun.java.command", ""), sys.env)
 
-  /** The variable whose limit of the heap counts: the launcher's options precede Java's own. */
-  private[candela] def variable(classPath: String, environment: Map[String, String]): String =
+  /** @param command main class or jar, and arguments, of this JVM: the launcher alone reads
+    *                JAVA_OPTS, and Java the other variables, unless its own arguments have a limit
+    */
+  private[candela] def cure(
+      option: String,
+      command: String,
+      environment: Map[String, String]
+  ): String =
     val javas = "JDK_JAVA_OPTIONS"
-    if classPath.endsWith("candela.jar") then "JAVA_OPTS"
-    else if environment.get(javas).exists(_.contains("-Xmx")) then javas
-    else "JAVA_TOOL_OPTIONS"
+    if command.startsWith("candela.cli.Main") then
+      s"raise the limit, e.g. with the environment variable JAVA_OPTS=$option"
+    else
+      val variable =
+        if environment.get(javas).exists(_.contains("-Xmx")) then javas else "JAVA_TOOL_OPTIONS"
+      s"raise the limit by Java's option $option, or with the environment variable $variable"

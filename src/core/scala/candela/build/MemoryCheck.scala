@@ -7,9 +7,9 @@ import candela.render.{Cost, CostKind, Costs}
   * then.
   *
   * @param heap in bytes
-  * @param film of the rendering, if there will be one
+  * @param film of the rendering
   */
-private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: BuildContext):
+private[build] final class MemoryCheck(heap: Long, film: Cost, context: BuildContext):
   private var sceneCosts = Vector.empty[Cost]
 
   /** What the scene takes, with the seconds until now. */
@@ -25,7 +25,7 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
   def estimate(uses: ObjectUses): Unit =
     val size = SceneSize(context.description, uses, context.resources.textures)
     sceneCosts = size.costs
-    val estimates = sceneCosts ++ film
+    val estimates = sceneCosts :+ film
     // What building the largest hierarchy takes is gone before that hierarchy is there
     val withoutHierarchies = estimates.filter(_.kind != CostKind.Hierarchies)
     def lowerBound(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.CertainShare).toLong
@@ -42,7 +42,7 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
   def during[A](build: => A): A =
     try build
     catch
-      case _: OutOfMemoryError => throw SceneError(Costs(sceneCosts ++ film).problem(heap, None))
+      case _: OutOfMemoryError => throw SceneError(Costs(sceneCosts :+ film).problem(heap, None))
 
 private object MemoryCheck:
   /** A scene takes at least this share of the estimate. */

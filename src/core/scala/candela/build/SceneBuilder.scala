@@ -61,7 +61,7 @@ object SceneBuilder:
       )
     checkLimits(context, image, crop, sampling)
     val perPixel = view.samplesOverride.getOrElse(sampling.sampler.samplesPerPixel)
-    val filmSize = Option.when(control.isRendered):
+    val filmSize =
       FilmSize.lowerBound(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(heap, filmSize, context)
     val samples = crop.pixels * perPixel

@@ -167,7 +167,8 @@ object FilmKeeper:
         val hasOtherOptions =
           now.copy(words = film.header.words).difference(film.header).isEmpty
         val help =
-          if isLonger then resuming + Remove
+          if FilmHeaders.isMadeInCode(film.header) then s"its own settings continue it; or $Remove"
+          else if isLonger then resuming + Remove
           else if hasOtherOptions then
             s"its own options continue it, as `candela resume $path` does, also to a goal; or " +
               Remove

@@ -31,7 +31,10 @@ private[render] object Workers:
         try worker.run()
         catch case e: Throwable => queue.fail(e)
         finally queue.end()
-      ThreadPool.thread(s"worker-${i + 1}", guarded)
+      val thread = ThreadPool.thread(s"worker-${i + 1}", guarded)
+      // A full heap may strike once more on the way out; the queue has the first failure
+      thread.setUncaughtExceptionHandler((_, _) => ())
+      thread
     queue.start(threads.size)
     threads.foreach(_.start())
     try

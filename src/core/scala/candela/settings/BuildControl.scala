@@ -7,7 +7,7 @@ import candela.io.Keep
   *
   * @param limits     what the scene may do
   * @param threads    that build it
-  * @param isRendered whether it is rendered, for which it needs a film, and a thread prepares
+  * @param isRendered whether it is rendered, for which a thread prepares
   * @param samples    per pixel to take, if not as many as the points are made for
   * @param footprint  size of a sample's footprint, in pixels, if not that of their number
   * @param world      which of the file's worlds, from 0; none: the first, with a warning if there

@@ -248,7 +248,7 @@ class LibrarySuite extends AnyFunSuite:
       val goal = RenderSettings().withTime(Duration.ofSeconds(1))
       val differing = intercept[SceneException](rendered(scene, goal, control)).problems.get(0)
       assert(differing.message.contains("options none instead of `--sampler progressive"))
-      assert(differing.help.get.startsWith("its own options continue it"))
+      assert(differing.help.get.startsWith("its own settings continue it"))
 
   test("a full heap is a problem of the scene"):
     val thrown = intercept[SceneException](Problems.thrown(throw OutOfMemoryError()))

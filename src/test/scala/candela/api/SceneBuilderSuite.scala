@@ -90,6 +90,15 @@ class SceneBuilderSuite extends AnyFunSuite:
     intercept[IllegalArgumentException](LibraryScenes.built().attributes(_ => lost))
     intercept[IllegalArgumentException](LibraryScenes.built().define("ball", _ => null))
 
+  test("arrays that change later change no scene"):
+    val points = Array[Float](0, 0, 0, 1, 0, 0, 0, 1, 0)
+    val indices = Array(0, 1, 2)
+    val mesh = Parameters().points("P", points).integers("indices", indices)
+    points(3) = Float.NaN
+    indices(0) = 77
+    val scene = LibraryScenes.built().shape("trianglemesh", mesh).scene()
+    assert(scene.problems.isEmpty, scene.problems)
+
   test("numbers that a file can't contain are problems"):
     val found = LibraryScenes.built().translate(Double.NaN, 0, 0)
       .shape("sphere", Parameters().number("radius", Double.PositiveInfinity)).scene()

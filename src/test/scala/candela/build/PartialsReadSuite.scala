@@ -6,6 +6,7 @@ import candela.build.integrators.Integrators
 import candela.cameras.Shutter
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.Vec3
+import candela.render.{Cost, CostKind}
 import candela.scene.{Footprints, Scene}
 import candela.scenefile.Dialect
 import candela.settings.{ColorMode, RenderSettings}
@@ -41,7 +42,7 @@ class PartialsReadSuite extends AnyFunSuite:
       ColorMode.Rgb,
       sensor = None,
       grouping = None,
-      MemoryCheck(Long.MaxValue, None, context)
+      MemoryCheck(Long.MaxValue, Cost(CostKind.Film, 0), context)
     ).build(Footprints(followsSpecular = true, otherwise = None)).scene
 
   private def look(scene: Scene, square: Int, at: ShadingPoint, isKnown: Boolean = false) =

@@ -221,11 +221,11 @@ class SceneSizeSuite extends AnyFunSuite:
   test("a film that does not fit is refused with the advice to render parts of it"):
     val text = Head.replace("32", "8000").replace("24", "8000") + Sky + "Shape \"sphere\"\n"
     val scene = SceneTexts.parse(text, Dialect.V4)
-    def build(heap: Long, isRendered: Boolean = true) =
-      val control = BuildControl(isRendered = isRendered)
-      SceneBuilder.build(scene, RenderSettings(samples = Some(4)), control, heap = heap)
-    val problem = intercept[SceneError](build(3_000_000_000L)).problems.head
-    assert(problem.message.contains("film 4.9 GB"), problem.message)
-    assert(problem.help.exists(_.contains("--cropwindow")), problem.help)
-    build(6_000_000_000L): Unit
-    build(3_000_000_000L, isRendered = false): Unit
+    for isRendered <- Seq(true, false) do
+      def build(heap: Long) =
+        val control = BuildControl(isRendered = isRendered)
+        SceneBuilder.build(scene, RenderSettings(samples = Some(4)), control, heap = heap)
+      val problem = intercept[SceneError](build(3_000_000_000L)).problems.head
+      assert(problem.message.contains("film 4.9 GB"), problem.message)
+      assert(problem.help.exists(_.contains("--cropwindow")), problem.help)
+      build(6_000_000_000L): Unit
