@@ -127,16 +127,18 @@ object EmptyImage:
     locally:
       val first = channels.map(image.data(_))
       loop(pixels): pixel =>
-        var isBroken, isNegative = false
+        var isBroken = false
         var isBlack = true
+        var sum = 0f
         loop(channels.length): c =>
           val value = image.data(pixel * image.channels + channels(c))
           if value.isNaN then isBroken = true
-          if value < 0 then isNegative = true
+          sum += value
           if value != 0 then isBlack = false
           if value != first(c) then isSame = false
         if isBroken then broken += 1
-        if isNegative then negative += 1
+        // A single negative channel is a colour outside the gamut
+        if sum < 0 then negative += 1
         if isBlack then black += 1
 
     def isUniform: Boolean = isSame

@@ -1,8 +1,10 @@
 package candela.convert
 
 import candela.diagnostics.Code
+import candela.bsdf.layered.{BaseSeries, Coat, Coats}
+import candela.bsdf.microfacet.TrowbridgeReitz
 import candela.color.Rgb
-import candela.math.safeSqrt
+import candela.math.{safeSqrt, square}
 import candela.scenefile.{Param, ParamType}
 
 /** Materials, from v4 to v3. */
@@ -39,12 +41,53 @@ object ToV3Materials:
     val r = (eta - 1) / (eta + 1)
     r * r
 
-  /** v3's plastic always has index 1.5; `Ks` compensates to the coating's normal reflectance. */
-  private val gloss = Step("`eta`", "`Ks` of equal reflectance at normal incidence"): s =>
+  private val coats = Coats()
+
+  /** The coat of a statement. */
+  private def coatOf(s: Statement, eta: Float): Coat =
+    def number(name: String) = s.peek(name).flatMap(s.numberOf)
+    val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
+    def alpha(name: String) =
+      val roughness = number(name).orElse(number("roughness")).getOrElse(0f)
+      if remap then safeSqrt(roughness) else roughness
+    val top = TrowbridgeReitz(alpha("uroughness"), alpha("vroughness"))
+    val thickness = Math.max(number("thickness").getOrElse(0.01f), 0f)
+    if top.isSmooth then coats.of(top, eta, thickness)
+    else Coats.interpolate(coats.family(eta, thickness), top)
+
+  /** A coat, and the reflectance of its base, as those of Ashikhmin and Shirley's model: `Ks`
+    * is the reflectance at normal incidence, `Kd` what gives the base the same albedo, 23/28 · Kd ·
+    * (1 − Ks) in that model.
+    */
+  private val coatedBase = Step("`reflectance`, `eta`", "`Kd` of equal albedo, `Ks`"): s =>
     val eta = s.take("eta").flatMap(p =>
       s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
     ).getOrElse(1.5f)
-    s.addRgb("Ks", Rgb.gray(normalReflectance(eta) / normalReflectance(1.5f)))
+    val ks = normalReflectance(eta)
+    val coat = coatOf(s, eta)
+    val passed = square(coat.meanTransmittance / eta)
+    def kd(reflectance: Float) =
+      val albedo = passed * BaseSeries.sum(reflectance, CoatHits, coat)
+      Math.min(albedo * 28f / (23f * (1f - ks)), 1f)
+    s.addRgb("Ks", Rgb.gray(ks))
+    val base = s.take("reflectance")
+    base.fold(Some(Rgb.gray(0.5f)))(s.colorOf) match
+      case Some(c) => s.addRgb("Kd", c.map(kd))
+      case None =>
+        for p <- base do
+          val texture = s.run.texture(p.strings.headOption.getOrElse(""), "spectrum")
+          val baked = texture.flatMap(BakedTextures.define(s, _, "`Kd` is darker")(_.map(kd)))
+          baked.fold {
+            s.warn(
+              Code.Inexpressible,
+              p.pos,
+              "texture of `reflectance` is unchanged, which is brighter by up to a half in v3"
+            )
+            s.addRaw(Values.renamed(p, "Kd"))
+          }(s.addTexture("Kd", _)(using p.pos))
+
+  /** As many reflections of the base as any coat shows. */
+  private val CoatHits = 100
 
   /** Absorption `k` for which a v4 conductor of index 1 has the given reflectance. */
   private def absorption(r: Float): Float =
@@ -77,9 +120,11 @@ object ToV3Materials:
         Seq("roughness", "uroughness", "vroughness", "remaproughness").foreach(s.take)
       else step.run(s)
 
-  /** Glass has only the two directional roughnesses. */
-  private val glassRoughness: Step =
-    val step = rough(0f, smoothAtZero = true)
+  private val glassRoughness: Step = directional(rough(0f, smoothAtZero = true))
+  private val bothRoughnesses: Step = directional(rough(0f))
+
+  /** Glass and substrate have only the two directional roughnesses. */
+  private def directional(step: Step): Step =
     Step(step.source, "`uroughness`, `vroughness`: alpha, not remapped"): s =>
       for p <- s.take("roughness") do
         for name <- Seq("uroughness", "vroughness") if !s.contains(name) do
@@ -90,7 +135,7 @@ object ToV3Materials:
   private def zero(s: Statement) =
     Param(ParamType.Float, "uroughness", s.declaration.pos, s.declaration.pos, floats = Array(0f))
 
-  private val coats = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
+  private val coatParams = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
 
   /** Light transmitted by a thin dielectric passes unscattered, which v3 expresses as opacity. Both
     * sides together reflect `2R / (1 + R)`.
@@ -146,8 +191,8 @@ object ToV3Materials:
 
   val table: Table = Table("Material", fallback = "matte")(
     Rule("diffuse" -> "matte")((reflectance(0.5f) :+ bump)*),
-    Rule.approximate("coateddiffuse" -> "plastic", coatNote)(
-      reflectance(0.5f) ++ Seq(gloss, rough(0f), bump, drop(coats*))*
+    Rule.approximate("coateddiffuse" -> "substrate", coatNote)(
+      Seq(coatedBase, bothRoughnesses, bump, drop(coatParams*))*
     ),
     Rule("conductor" -> "metal")(metal(""), rough(0f), bump),
     Rule.approximate("coatedconductor" -> "metal", "without coating")(
@@ -157,7 +202,7 @@ object ToV3Materials:
         "conductor.uroughness" -> "uroughness",
         "conductor.vroughness" -> "vroughness"
       ),
-      drop((coats ++ Seq("interface.roughness", "interface.uroughness", "interface.vroughness",
+      drop((coatParams ++ Seq("interface.roughness", "interface.uroughness", "interface.vroughness",
         "interface.eta", "remaproughness"))*),
       bump
     ),

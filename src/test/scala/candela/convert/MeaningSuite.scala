@@ -127,6 +127,22 @@ class MeaningSuite extends AnyFunSuite:
     val glass = material("Material \"glass\"", Dialect.V3, Dialect.V4)
     assert(number(glass, "roughness") == 0f)
 
+  test("a coated base keeps its albedo and both roughnesses in v3"):
+    val coated = "Material \"coateddiffuse\" \"rgb reflectance\" .5 \"float thickness\" 0 " +
+      "\"float uroughness\" 0 \"float vroughness\" 0"
+    val smooth = material(coated.replace(".5", "[.5 .5 .5]"), Dialect.V4, Dialect.V3)
+    assert(smooth.name == "substrate" && Math.abs(smooth.param("Ks").get.floats(0) - .04f) < 1e-5f)
+    // Of index 1.5, a diffuse coat reflects 9.2 % from outside and 59.6 % from inside (Egan and
+    // Hilgeman 1973)
+    val albedo = Math.pow(1 - .092, 2) / (1.5 * 1.5) * .5 / (1 - .5 * .596)
+    val kd = smooth.param("Kd").get.floats(0)
+    assert(Math.abs(kd / (albedo * 28 / (23 * .96)) - 1) < 5e-3, kd)
+    val rough = coated.replace("uroughness\" 0", "uroughness\" .04")
+      .replace("vroughness\" 0", "vroughness\" .09")
+    val both = material(rough.replace(".5", "[.5 .5 .5]"), Dialect.V4, Dialect.V3)
+    assert(Math.abs(number(both, "uroughness") - .2f) < 1e-5f)
+    assert(Math.abs(number(both, "vroughness") - .3f) < 1e-5f)
+
   test("plastic without gloss is diffuse, and nothing is lost"):
     val world = "Material \"plastic\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [.3 .3 .3] Shape \"sphere\""
     assert(converted(world, Dialect.V3, Dialect.V4).warnings.isEmpty)
