@@ -788,6 +788,14 @@ class Exporting(unittest.TestCase):
             node = next(n for n in tree.nodes if n.type == "BSDF_TRANSPARENT")
             node.inputs[0].default_value = (1, 0.5, 0.5, 1)
 
+        def glowing(made, tree, shader):
+            shader.inputs["Emission Strength"].default_value = 2
+            shader.inputs["Alpha"].default_value = 0.5
+
+        def glowing_mixed(made, tree, shader):
+            on_floor(made, "Emission", None)
+            on_floor(made, "BsdfTransparent")
+
         def muted(made, tree, shader):
             papered(made)
             next(n for n in tree.nodes if n.type == "TEX_IMAGE").mute = True
@@ -804,6 +812,7 @@ class Exporting(unittest.TestCase):
 
         unread = "glTF has no node {}; rendered without".format
         lost = "{} of node 'Principled BSDF' is not supported".format
+        dimmed = "the emission of node '{}' is scaled twice by its alpha".format
         is_muted = "{} is muted, but used".format
         for change, text in (
             (lambda made, *_: on_floor(made, "BsdfGlossy"), unread("'Glossy BSDF', 'Mix Shader'")),
@@ -822,6 +831,9 @@ class Exporting(unittest.TestCase):
             (set_input("Thin Film Thickness", 300), lost("Thin Film Thickness")),
             (set_input("Base Color", (2, 1, 1, 1)), lost("Base Color above 1")),
             (linked("Value", "IOR"), lost("a linked IOR")),
+            (glowing, dimmed("Principled BSDF")),
+            (glowing_mixed, dimmed("Emission")),
+            (set_input("Emission Strength", 2), None),
             (set_input("Coat IOR", 2), None),
             (set_input("Alpha", 0.5), None),
             (lambda made, *_: on_floor(made, "BsdfTransparent"), None),

@@ -79,6 +79,8 @@ def _check_material(material, warn):
         if node.type == "BSDF_TRANSPARENT" and unlinked(node.inputs[0])[:3] != (1, 1, 1):
             tell(f"the color of node '{node.name}' is not supported; white is used")
     for node in nodes:
+        if surfaces.is_emissive(node) and not surfaces.is_opaque(node, surface):
+            tell(f"the emission of node '{node.name}' is scaled twice by its alpha")
         if surfaces.is_missing(node):
             what = f"image '{node.image.name}' can't be read" if node.image else "it has no image"
             tell(f"node '{node.name}': {what}")
@@ -90,7 +92,7 @@ def _check_material(material, warn):
 
 def _unread(nodes):
     """The nodes that the exporter reads otherwise than Cycles."""
-    shaders = [node for node in nodes if node.type in ("BSDF_PRINCIPLED", "EMISSION")]
+    shaders = [node for node in nodes if node.type in surfaces.EXPORTED]
     yield from (node for node in nodes if node.type not in _NODES)
     for shader in shaders:
         for socket in shader.inputs:
@@ -161,7 +163,7 @@ def _is_transparent(image):
 def _other_spaces(nodes):
     """Images in other colour spaces than glTF has, and what they are rendered with."""
     for shader in nodes:
-        for socket in shader.inputs if shader.type in ("BSDF_PRINCIPLED", "EMISSION") else ():
+        for socket in shader.inputs if shader.type in surfaces.EXPORTED else ():
             for node in upstream(source(socket)):
                 image = node.image if node.type == "TEX_IMAGE" else None
                 if image is None or socket.name == "Alpha":

@@ -8,7 +8,8 @@ BLACK = (0.0, 0.0, 0.0)
 _DEFAULT = (0.8, 0.8, 0.8)
 # What Cycles has where an image is missing
 _MISSING = [1.0, 0.0, 1.0]
-_EXPORTED = ("BSDF_PRINCIPLED", "EMISSION")
+# Shaders that the exporter reads
+EXPORTED = ("BSDF_PRINCIPLED", "EMISSION")
 
 
 class Surface(NamedTuple):
@@ -38,7 +39,7 @@ def of(material):
         first, second = (_entered(source(socket)) for socket in node.inputs[1:3])
         for clear, shader, alpha in ((first, second, factor), (second, first, 1 - factor)):
             is_mixed = clear is not None and clear.type == "BSDF_TRANSPARENT"
-            if is_mixed and shader is not None and shader.type in _EXPORTED:
+            if is_mixed and shader is not None and shader.type in EXPORTED:
                 return Surface(shader, alpha, (node, clear))
     return Surface(node, 1.0)
 
@@ -49,6 +50,21 @@ def _entered(node):
         end = group_output(node)
         node = source(end.inputs[0]) if end is not None else None
     return node
+
+
+def is_emissive(node):
+    """Whether the node is a shader that emits."""
+    prefix = "Emission " if node.type == "BSDF_PRINCIPLED" else ""
+    if node.type not in EXPORTED or unlinked(node.inputs[f"{prefix}Strength"]) == 0:
+        return False
+    color = unlinked(node.inputs[f"{prefix}Color"])
+    return color is None or any(color[:3])
+
+
+def is_opaque(shader, surface):
+    """Whether nothing is seen through the shader of the surface."""
+    alpha = shader.inputs.get("Alpha")
+    return surface.alpha == 1 and (alpha is None or unlinked(alpha) == 1)
 
 
 def is_missing(node):
@@ -85,7 +101,7 @@ def mend(gltf_material, material):
     texture = source(color) if color else None
     if texture is not None and is_missing(texture):
         pbr = gltf_material.pbr_metallic_roughness
-        pbr.base_color_factor = _MISSING + (pbr.base_color_factor or [1.0] * 4)[3:]
+        pbr.base_color_factor = _MISSING + list(pbr.base_color_factor or [1.0] * 4)[3:]
 
 
 def _paint(gltf_material, color, roughness=1.0, specular=0.0):
