@@ -47,8 +47,8 @@ final class Colors(session: Session):
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
         case Value.Color(c) =>
-          if role == Role.Reflectance then warnOfRange(c, in, p)
-          Some(Shade.Constant(c))
+          val isReflectance = role == Role.Reflectance
+          Some(Shade.Constant(if isReflectance then inRange(c, in, p) else c))
         case Value.Wavelengths(s) => Some(measured(s, role))
         case Value.Flat(x) if role == Role.Emission => Some(measured(flat(x), role))
         case Value.Flat(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
@@ -63,15 +63,20 @@ final class Colors(session: Session):
           None
 
   /** Colours of 0.6 had no limit; skies check theirs. The roughness `alpha` takes any. */
-  private def warnOfRange(c: Rgb, in: Properties, p: Property): Unit =
-    if !in.plugin.isOld && in.plugin.kind != "emitter" && !p.name.startsWith("alpha") &&
-      Vector(c.r, c.g, c.b).exists(x => x < 0f || x > 1f)
-    then
+  private def inRange(c: Rgb, in: Properties, p: Property): Rgb =
+    val components = Vector(c.r, c.g, c.b)
+    if in.plugin.isOld || in.plugin.kind == "emitter" || p.name.startsWith("alpha") ||
+      components.forall(x => x >= 0f && x <= 1f)
+    then c
+    else
+      val consequence =
+        if components.exists(_ < 0f) then "negative components are 0" else "it is used"
       session.warn(
         Code.ParameterValue,
         p.pos,
-        s"Mitsuba rejects `${p.name}` as an <rgb> outside 0 to 1; it is used"
+        s"Mitsuba rejects `${p.name}` as an <rgb> outside 0 to 1; $consequence"
       )
+      Rgb(Math.max(0f, c.r), Math.max(0f, c.g), Math.max(0f, c.b))
 
   private def ofPlugin(p: Plugin, role: Role, in: Properties, name: String): Option[Shade] =
     if p.kind != "texture" && p.kind != "spectrum" then
