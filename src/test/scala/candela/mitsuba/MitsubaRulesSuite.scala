@@ -293,6 +293,8 @@ class MitsubaRulesSuite extends AnyFunSuite:
       assert(scene.warnings.map(_.message).filter(_.contains("reflectance")) == Vector(
         "Mitsuba rejects `reflectance` as an <rgb> outside 0 to 1; negative components are 0"
       ))
+      val material = scene.shapes.head.material.declared(scene.namedMaterials.toMap).get
+      assert(material.param("reflectance").get.floats.toSeq == Seq(0f, .5f, .5f))
     val volume = s"<volume type=\"constvolume\" name=\"sigma_t\">${rgb("value")}</volume>"
     val metal = s"type=\"conductor\">${rgb("eta")}${rgb("k")}"
     val taken = Seq(
