@@ -79,8 +79,6 @@ def _check_material(material, warn):
         if node.type == "BSDF_TRANSPARENT" and unlinked(node.inputs[0])[:3] != (1, 1, 1):
             tell(f"the color of node '{node.name}' is not supported; white is used")
     for node in nodes:
-        if surfaces.is_emissive(node) and not surfaces.is_opaque(node, surface):
-            tell(f"the emission of node '{node.name}' is scaled twice by its alpha")
         if surfaces.is_missing(node):
             what = f"image '{node.image.name}' can't be read" if node.image else "it has no image"
             tell(f"node '{node.name}': {what}")

@@ -52,21 +52,6 @@ def _entered(node):
     return node
 
 
-def is_emissive(node):
-    """Whether the node is a shader that emits."""
-    prefix = "Emission " if node.type == "BSDF_PRINCIPLED" else ""
-    if node.type not in EXPORTED or unlinked(node.inputs[f"{prefix}Strength"]) == 0:
-        return False
-    color = unlinked(node.inputs[f"{prefix}Color"])
-    return color is None or any(color[:3])
-
-
-def is_opaque(shader, surface):
-    """Whether nothing is seen through the shader of the surface."""
-    alpha = shader.inputs.get("Alpha")
-    return surface.alpha == 1 and (alpha is None or unlinked(alpha) == 1)
-
-
 def is_missing(node):
     """Whether the node is an image texture without an image that can be read."""
     return node.type == "TEX_IMAGE" and (node.image is None or not all(node.image.size))

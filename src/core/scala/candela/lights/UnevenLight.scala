@@ -70,18 +70,21 @@ final class PictureLight(
 
   protected def strength: Float = picture.meanOfMax
 
-/** An area light on an alpha-masked surface, as in pbrt-v4: its emission is scaled by alpha, also
-  * where a ray that has passed the mask meets it, so that α² of the light is seen.
+/** An area light on an alpha-masked surface: its emission is scaled by alpha where it is sampled.
   *
   * @param alpha opacity of the surface
+  * @param scalesHits whether it is so, too, where a ray that the mask has not let pass meets it:
+  *   pbrt-v4 shows α² of the light
   */
 final class PerforatedLight(
     light: SurfaceLight,
     surface: SurfaceSampler,
-    alpha: candela.textures.FloatTexture
+    alpha: candela.textures.FloatTexture,
+    scalesHits: Boolean
 ) extends UnevenLight(light, surface):
   def radiance(at: ShadingPoint, w: Vec3): Rgb =
-    light.radiance(at, w) * at.withoutFootprint(factor)
+    val emitted = light.radiance(at, w)
+    if scalesHits then emitted * at.withoutFootprint(factor) else emitted
 
   protected def factor(at: ShadingPoint): Rgb =
     Rgb.White * clamp(alpha(at), 0f, 1f)

@@ -25,7 +25,7 @@ private[convert] object FromGltf:
   def converted(scene: SceneDescription, files: SideFiles): Converted =
     val run = Run(scene, files)
     val unclipped = run.unclipped
-    (unclipped.shapes ++ unclipped.objects.values.flatten).foreach(run.openedMedium)
+    (unclipped.shapes ++ unclipped.objects.values.flatten).foreach(run.openedSurface)
     val solid = unclipped.copy(shapes = unclipped.shapes.map(run.solidLight))
     val plain = Declarations.map(solid)(run.plain)
     val named = plain.namedMaterials.flatMap(run.material)
@@ -72,12 +72,15 @@ private[convert] object FromGltf:
         val near = Param.float("nearclip", clips.head.pos, 0f)
         Interiors.aroundCamera(scene.copy(camera = camera(Some(near)))).copy(camera = camera(None))
 
-    def openedMedium(s: ShapeDescription): Unit =
-      for alpha <- s.shape.param("alpha") if s.insideMedium.nonEmpty do
+    def openedSurface(s: ShapeDescription): Unit =
+      for alpha <- s.shape.param("alpha") do
         val material = s.material match
           case MaterialRef.Named(name, _) => s" of material `$name`"
           case _ => ""
-        warn(alpha, s"pbrt has no medium$material where alpha opens its surface")
+        if s.insideMedium.nonEmpty then
+          warn(alpha, s"pbrt has no medium$material where alpha opens its surface")
+        if s.areaLight.nonEmpty then
+          warn(alpha, s"pbrt dims the emission$material twice by its alpha")
 
     /** With the files that are within the model written beside the scene. */
     private def extracted(d: Declaration): Declaration =

@@ -36,7 +36,8 @@ import candela.textures.{TexelBands, Texels}
   * @param opens     whether light passes interfaces of media, also where integrators ignore media
   * @param goesBeneath whether `path` follows light beneath surfaces
   * @param skyCovers whether the sky is opaque
-  * @param separatesAlpha whether a ray passes each surface with alpha by a chance of its own
+  * @param coversByAlpha whether alpha is how much of a surface is there: a ray passes each by a
+  *   chance of its own, and light of the surface is scaled once
   * @param defaultsToIndependent whether independent samples are what scenes have that don't choose
   */
 final case class Rules(
@@ -65,7 +66,7 @@ final case class Rules(
     opens: Boolean = false,
     goesBeneath: Boolean = false,
     skyCovers: Boolean = false,
-    separatesAlpha: Boolean = false,
+    coversByAlpha: Boolean = false,
     defaultsToIndependent: Boolean = false
 )
 
@@ -123,7 +124,7 @@ object Rules:
     passes = true,
     goesBeneath = true,
     skyCovers = true,
-    separatesAlpha = true,
+    coversByAlpha = true,
     defaultsToIndependent = true
   )
 
@@ -141,5 +142,5 @@ object Rules:
     fade = Fade.Square,
     facesEmitters = true,
     opens = true,
-    separatesAlpha = true
+    coversByAlpha = true
   )

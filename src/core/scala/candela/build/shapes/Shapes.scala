@@ -30,12 +30,12 @@ final case class ShapePlan(geometry: ShapeGeometry, mask: Mask, holes: EmitterHo
 /** Light sampling of an alpha-masked emitter: v2 and v3 ignore its cutouts. */
 enum EmitterHoles:
   case Ignored, Everywhere
-  case Where(alpha: FloatTexture)
+  case Where(alpha: FloatTexture, scalesHits: Boolean)
 
   def light(light: SurfaceLight, surface: SurfaceSampler): Light = this match
     case Ignored => light
     case Everywhere => HiddenLight(light)
-    case Where(alpha) => PerforatedLight(light, surface, alpha)
+    case Where(alpha, scalesHits) => PerforatedLight(light, surface, alpha, scalesHits)
 
 /** Base of shape recipes.
   *
@@ -81,7 +81,7 @@ abstract class ShapeRecipe(
     geometry().map: geometry =>
       val holes = holesOf(alpha)
       if site.dialect == Dialect.V4 then
-        val mask = holes.fold(SolidMask)(StochasticMask(_, site.rules.separatesAlpha))
+        val mask = holes.fold(SolidMask)(StochasticMask(_, site.rules.coversByAlpha))
         ShapePlan(geometry, if isOpenBehind() then FrontMask(mask) else mask, emitter(holes))
       else
         val inShadow = holesOf(shadowAlpha)
@@ -99,10 +99,11 @@ abstract class ShapeRecipe(
     val minAlpha = cutoff.fold(0f)(_())
     if minAlpha > 0f then StepFloat.of(alpha, minAlpha) else alpha
 
-  private def emitter(holes: Option[FloatTexture]): EmitterHoles = holes match
+  private def emitter(holes: Option[FloatTexture])(using site: Site): EmitterHoles = holes match
     case None => EmitterHoles.Ignored
+    case Some(alpha) if site.rules.coversByAlpha => EmitterHoles.Where(alpha, scalesHits = false)
     case Some(alpha) if alpha.constant.exists(_ <= 0f) => EmitterHoles.Everywhere
-    case Some(alpha) => EmitterHoles.Where(alpha)
+    case Some(alpha) => EmitterHoles.Where(alpha, scalesHits = true)
 
   private val Opaque = ConstantFloat(1f)
 
