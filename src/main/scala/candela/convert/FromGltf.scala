@@ -49,6 +49,13 @@ private[convert] object FromGltf:
         case "Shape" => shape(filed)
         case "Texture" => texture(filed)
         case "AreaLightSource" => areaLight(filed)
+        case "Medium" =>
+          for p <- filed.params if p.name.startsWith("sigma_") && p.floats.distinct.length > 1 do
+            warn(
+              p,
+              s"pbrt-v4 takes a spectrum of the color `${p.name}`: what passes has another color"
+            )
+          filed
         case "LightSource" =>
           if d.name == "spot" && d.param("falloff").isEmpty then
             warn(d, "a \"spot\" fades along another curve in pbrt")

@@ -129,7 +129,7 @@ class FromGltfSuite extends AnyFunSuite:
       val parsed = SceneTexts.parse(
         """Camera "perspective" "float nearclip" 3 "float farclip" 9
           |WorldBegin
-          |MakeNamedMedium "fog" "string type" "homogeneous"
+          |MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [1 2 3]
           |MediumInterface "fog" ""
           |MakeNamedMaterial "glass" "string type" "dielectric"
           |NamedMaterial "glass"
@@ -145,6 +145,7 @@ class FromGltfSuite extends AnyFunSuite:
       val result = Converter.convert(scene, Dialect.V4, folder)
       assert(result.scene.cameraMedium == "fog")
       val messages = result.warnings.map(_.message)
+      assert(messages.count(_.startsWith("pbrt-v4 takes a spectrum of the color `sigma_")) == 1)
       for name <- Vector("nearclip", "farclip") do
         assert(messages.contains(s"pbrt's cameras have no `$name`; nothing is clipped"), messages)
       assert(
