@@ -76,7 +76,7 @@ final class Colors(session: Session):
         p.pos,
         s"Mitsuba rejects `${p.name}` as an <rgb> outside 0 to 1; $consequence"
       )
-      Rgb(Math.max(0f, c.r), Math.max(0f, c.g), Math.max(0f, c.b))
+      c.atLeast(Rgb.Black)
 
   private def ofPlugin(p: Plugin, role: Role, in: Properties, name: String): Option[Shade] =
     if p.kind != "texture" && p.kind != "spectrum" then

@@ -3,7 +3,7 @@ package candela.convert
 import candela.diagnostics.Code
 import candela.bsdf.microfacet.Roughness
 import candela.color.Rgb
-import candela.math.sqrt
+import candela.math.{safeSqrt, sqrt}
 import candela.scenefile.{Dialect, Param, ParamType}
 
 /** Converts roughness. A number becomes the microfacet distribution's `alpha`, with
@@ -41,9 +41,13 @@ object RoughnessSteps:
     Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
       val remap = s.takeBool("remaproughness", true)
       def alpha(r: Float) =
-        val a = if remap then sqrt(Math.max(r, 0f)) else r
+        val a = alphaOfV4(r, remap)
         if smoothAtZero then a else Math.max(a, 1e-3f)
       write(s, default, remap, alpha)
+
+  /** The microfacet distribution's `alpha` in v4. */
+  private[convert] def alphaOfV4(roughness: Float, remap: Boolean): Float =
+    if remap then safeSqrt(roughness) else roughness
 
   private val Names = Vector("roughness", "uroughness", "vroughness")
 

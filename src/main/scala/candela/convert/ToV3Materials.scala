@@ -41,6 +41,12 @@ object ToV3Materials:
     val r = (eta - 1) / (eta + 1)
     r * r
 
+  /** Index of refraction of a coat or a pane, at 589 nm. */
+  private def takeIndex(s: Statement): Float =
+    s.take("eta").flatMap(p =>
+      s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
+    ).getOrElse(1.5f)
+
   private val coats = Coats()
 
   /** The coat of a statement. */
@@ -48,8 +54,7 @@ object ToV3Materials:
     def number(name: String) = s.peek(name).flatMap(s.numberOf)
     val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
     def alpha(name: String) =
-      val roughness = number(name).orElse(number("roughness")).getOrElse(0f)
-      if remap then safeSqrt(roughness) else roughness
+      RoughnessSteps.alphaOfV4(number(name).orElse(number("roughness")).getOrElse(0f), remap)
     val top = TrowbridgeReitz(alpha("uroughness"), alpha("vroughness"))
     val thickness = Math.max(number("thickness").getOrElse(0.01f), 0f)
     if top.isSmooth then coats.of(top, eta, thickness)
@@ -60,9 +65,7 @@ object ToV3Materials:
     * (1 − Ks) in that model.
     */
   private val coatedBase = Step("`reflectance`, `eta`", "`Kd` of equal albedo, `Ks`"): s =>
-    val eta = s.take("eta").flatMap(p =>
-      s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
-    ).getOrElse(1.5f)
+    val eta = takeIndex(s)
     val ks = normalReflectance(eta)
     val coat = coatOf(s, eta)
     val passed = square(coat.meanTransmittance / eta)
@@ -141,9 +144,7 @@ object ToV3Materials:
     * sides together reflect `2R / (1 + R)`.
     */
   private val thinDielectric = Step("`eta`", "`opacity` and `Kr`, exact at normal incidence"): s =>
-    val n = s.take("eta").flatMap(p =>
-      s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
-    ).getOrElse(1.5f)
+    val n = takeIndex(s)
     val singleSide = normalReflectance(n)
     val bothSides = 2 * singleSide / (1 + singleSide)
     s.addRgb("Kd", Rgb.Black)

@@ -113,8 +113,10 @@ final class Interiors private (scene: SceneDescription):
 object Interiors:
   /** The model in which media end where others begin, and what may be wrong with them. */
   def bordered(scene: SceneDescription): (SceneDescription, Vector[Problem]) =
-    val run = Interiors(scene)
-    (run.bordered, run.problems.toVector)
+    if scene.media.isEmpty then (scene, Vector.empty)
+    else
+      val run = Interiors(scene)
+      (run.bordered, run.problems.toVector)
 
   /** The model with the medium around its camera; other scenes say it themselves. */
   def aroundCamera(scene: SceneDescription): SceneDescription =
