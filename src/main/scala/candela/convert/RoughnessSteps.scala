@@ -24,8 +24,7 @@ object RoughnessSteps:
       val smooth =
         smoothAtZero && Names.tail.forall(n => s.peek(n).forall(Steps.isNumber(0f)(_, s)))
       def alpha(r: Float) =
-        if smooth then 0f
-        else Math.max(if remap then Roughness.polynomialAlpha(r) else r, 1e-3f)
+        if smooth then 0f else alphaOfV3(r, remap)
       write(s, default, remap, alpha)
 
   /** Converts v2's roughness, 1 / exponent of Blinn's distribution, to v3's: the `alpha` of equal
@@ -44,6 +43,10 @@ object RoughnessSteps:
         val a = alphaOfV4(r, remap)
         if smoothAtZero then a else Math.max(a, 1e-3f)
       write(s, default, remap, alpha)
+
+  /** The microfacet distribution's `alpha` in v3. */
+  private[convert] def alphaOfV3(roughness: Float, remap: Boolean): Float =
+    Math.max(if remap then Roughness.polynomialAlpha(roughness) else roughness, 1e-3f)
 
   /** The microfacet distribution's `alpha` in v4. */
   private[convert] def alphaOfV4(roughness: Float, remap: Boolean): Float =

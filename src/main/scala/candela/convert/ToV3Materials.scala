@@ -1,10 +1,8 @@
 package candela.convert
 
 import candela.diagnostics.Code
-import candela.bsdf.layered.{BaseSeries, Coat, Coats}
-import candela.bsdf.microfacet.TrowbridgeReitz
 import candela.color.Rgb
-import candela.math.{safeSqrt, square}
+import candela.math.safeSqrt
 import candela.scenefile.{Param, ParamType}
 
 /** Materials, from v4 to v3. */
@@ -47,19 +45,6 @@ object ToV3Materials:
       s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
     ).getOrElse(1.5f)
 
-  private val coats = Coats()
-
-  /** The coat of a statement. */
-  private def coatOf(s: Statement, eta: Float): Coat =
-    def number(name: String) = s.peek(name).flatMap(s.numberOf)
-    val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
-    def alpha(name: String) =
-      RoughnessSteps.alphaOfV4(number(name).orElse(number("roughness")).getOrElse(0f), remap)
-    val top = TrowbridgeReitz(alpha("uroughness"), alpha("vroughness"))
-    val thickness = Math.max(number("thickness").getOrElse(0.01f), 0f)
-    if top.isSmooth then coats.of(top, eta, thickness)
-    else Coats.interpolate(coats.family(eta, thickness), top)
-
   /** A coat, and the reflectance of its base, as those of Ashikhmin and Shirley's model: `Ks`
     * is the reflectance at normal incidence, `Kd` what gives the base the same albedo, 23/28 · Kd ·
     * (1 − Ks) in that model.
@@ -67,30 +52,12 @@ object ToV3Materials:
   private val coatedBase = Step("`reflectance`, `eta`", "`Kd` of equal albedo, `Ks`"): s =>
     val eta = takeIndex(s)
     val ks = normalReflectance(eta)
-    val coat = coatOf(s, eta)
-    val passed = square(coat.meanTransmittance / eta)
-    def kd(reflectance: Float) =
-      val albedo = passed * BaseSeries.sum(reflectance, CoatHits, coat)
-      Math.min(albedo * 28f / (23f * (1f - ks)), 1f)
+    val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
+    val coat = CoatedBases.coatOf(s, eta, roughness = 0f)(RoughnessSteps.alphaOfV4(_, remap))
     s.addRgb("Ks", Rgb.gray(ks))
-    val base = s.take("reflectance")
-    base.fold(Some(Rgb.gray(0.5f)))(s.colorOf) match
-      case Some(c) => s.addRgb("Kd", c.map(kd))
-      case None =>
-        for p <- base do
-          val texture = s.run.texture(p.strings.headOption.getOrElse(""), "spectrum")
-          val baked = texture.flatMap(BakedTextures.define(s, _, "`Kd` is darker")(_.map(kd)))
-          baked.fold {
-            s.warn(
-              Code.Inexpressible,
-              p.pos,
-              "texture of `reflectance` is unchanged, which is brighter by up to a half in v3"
-            )
-            s.addRaw(Values.renamed(p, "Kd"))
-          }(s.addTexture("Kd", _)(using p.pos))
-
-  /** As many reflections of the base as any coat shows. */
-  private val CoatHits = 100
+    CoatedBases.add(s, s.take("reflectance"), 0.5f, "Kd", "brighter by up to a half"):
+      reflectance =>
+        Math.min(CoatedBases.albedo(reflectance, coat, eta) * 28f / (23f * (1f - ks)), 1f)
 
   /** Absorption `k` for which a v4 conductor of index 1 has the given reflectance. */
   private def absorption(r: Float): Float =

@@ -30,20 +30,33 @@ object ToV4Materials:
           )
         s.addFloat("eta", value.getOrElse(default))(using p.pos)
 
-  /** The coating's index of refraction for which its normal reflectance equals `Ks`. */
-  private def coat(defaultKs: Float, fresnel: Float): Step =
-    Step("`Ks`", "`eta` of a coating of equal reflectance at normal incidence"): s =>
+  /** A diffuse and a glossy lobe side by side, as a base and its coat.
+    *
+    * @param fresnel reflectance at normal incidence of a gloss with `Ks` 1
+    * @param albedo  of the diffuse lobe, from `Kd` and the reflectance at normal incidence
+    */
+  private def coatedBase(kd: Float, ks: Float, fresnel: Float)(
+      albedo: (Float, Float) => Float
+  ): Step =
+    Step(
+      "`Kd`, `Ks`",
+      "`reflectance` of equal albedo, `eta` of a coating of equal reflectance at normal incidence"
+    ): s =>
       val p = s.take("Ks")
-      val ks = p.flatMap(s.colorOf).getOrElse(Rgb.gray(defaultKs))
+      val gloss = p.flatMap(s.colorOf).getOrElse(Rgb.gray(ks))
       if p.exists(s.colorOf(_).isEmpty) then
         s.warn(Code.Inexpressible, p.get.pos, "v4's coating can't be textured; using a constant")
-      else if !Values.isGray(ks) then
+      else if !Values.isGray(gloss) then
         s.warn(Code.Inexpressible, p.get.pos, "v4's coating can't be coloured; using gray")
-      val root = sqrt(Math.min(Math.max(ks.luminance * fresnel, 1e-4f), 0.9f))
-      s.addFloat("eta", (1f + root) / (1f - root))
+      val normal = Math.min(Math.max(gloss.luminance * fresnel, 1e-4f), 0.9f)
+      val eta = (1f + sqrt(normal)) / (1f - sqrt(normal))
+      s.addFloat("eta", eta)
+      val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
+      val coat = CoatedBases.coatOf(s, eta, roughness = 0.1f)(RoughnessSteps.alphaOfV3(_, remap))
+      CoatedBases.add(s, s.take("Kd"), kd, "reflectance", "darker by up to a third"): value =>
+        CoatedBases.reflectance(albedo(value, normal), coat, eta)
 
-  private val coatNote = "another coating model, which also attenuates " +
-    "the base"
+  private val coatNote = "another model of a coated base"
 
   /** A material with a black specular lobe is exactly `diffuse`. */
   private def plainIfBlack(names: String*): Step =
@@ -54,17 +67,29 @@ object ToV4Materials:
         (names ++ Seq("roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"))
           .foreach(s.take)
 
-  private def unlessPlain(step: Step): Step =
-    Step(step.source, step.target)(s => if !isPlain(s) then step.run(s))
+  /** Steps by what the material has become. */
+  private def ifCoated(step: Step): Step =
+    Step(step.source, step.target)(s => if s.targetName == "coateddiffuse" then step.run(s))
 
-  private def isPlain(s: Statement) = s.targetName == "diffuse"
+  private def ifPlain(step: Step): Step =
+    Step(step.source, step.target)(s => if s.targetName == "diffuse" then step.run(s))
 
-  private def reflectance(default: Float): Seq[Step] = Seq(
-    rename("Kd" -> "reflectance"),
-    otherwise("reflectance", s"`reflectance` $default")(s =>
-      s.addRgb("reflectance", Rgb.gray(default))
-    )
+  /** What two lobes side by side become: without gloss diffuse, else a coated base. */
+  private def twoLobes(kd: Float, coated: Step): Seq[Step] = Seq(
+    plainIfBlack("Ks"),
+    ifPlain(rename("Kd" -> "reflectance")),
+    ifPlain(otherwise("reflectance", s"`reflectance` $kd")(
+      _.addRgb("reflectance", Rgb.gray(kd))
+    )),
+    ifCoated(coated),
+    ifCoated(RoughnessSteps.v3(0.1f))
   )
+
+  /** Lambertian reflection of albedo `Kd` beside a gloss. */
+  private val lambertian = coatedBase(0.25f, 0.25f, 0.04f)((kd, _) => kd)
+
+  /** Ashikhmin and Shirley's model. */
+  private val fresnelBlend = coatedBase(0.5f, 0.5f, 1f)((kd, ks) => 23f / 28f * kd * (1f - ks))
 
   private val uber: Step = Step(
     "`Kr`, `Kt`, `opacity`",
@@ -153,16 +178,13 @@ object ToV4Materials:
       bump
     ),
     Rule.approximate("plastic" -> "coateddiffuse", coatNote)(
-      (plainIfBlack("Ks") +: reflectance(0.25f)) ++
-        Seq(unlessPlain(coat(0.25f, 0.04f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+      (twoLobes(0.25f, lambertian) :+ bump)*
     ),
     Rule.approximate("substrate" -> "coateddiffuse", coatNote)(
-      (plainIfBlack("Ks") +: reflectance(0.5f)) ++
-        Seq(unlessPlain(coat(0.5f, 1f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+      (twoLobes(0.5f, fresnelBlend) :+ bump)*
     ),
     Rule.approximate("uber" -> "coateddiffuse", coatNote)(
-      Seq(uber, plainIfBlack("Ks")) ++ reflectanceOfUber ++
-        Seq(unlessPlain(uberCoat), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+      (uber +: twoLobes(0.25f, lambertian)) ++ Seq(ofUber, bump)*
     ),
     Rule("glass" -> "dielectric")(
       eta(1.5f),
@@ -211,14 +233,9 @@ object ToV4Materials:
     Rule("|none" -> "interface")()
   )
 
-  // Neither applies once the material is a dielectric.
-  private def reflectanceOfUber: Seq[Step] = reflectance(0.25f).map: step =>
-    Step(step.source, step.target)(s => if s.targetName != "dielectric" then step.run(s))
-
-  private def uberCoat: Step =
-    val gloss = coat(0.25f, 0.04f)
-    Step("`Ks`, `eta`, `index`", "`eta`"): s =>
-      if s.targetName == "dielectric" then eta(1.5f).run(s)
-      else
-        Seq("eta", "index").foreach(s.take)
-        gloss.run(s)
+  private def ofUber: Step =
+    Step("`eta`, `index`", "only of \"dielectric\""): s =>
+      if s.targetName == "dielectric" then
+        eta(1.5f).run(s)
+        RoughnessSteps.v3(0.1f).run(s)
+      else Seq("eta", "index").foreach(s.take)

@@ -143,6 +143,22 @@ class MeaningSuite extends AnyFunSuite:
     assert(Math.abs(number(both, "uroughness") - .2f) < 1e-5f)
     assert(Math.abs(number(both, "vroughness") - .3f) < 1e-5f)
 
+  test("a base keeps its albedo under v4's coat"):
+    // Index 1.5, a smooth coat as above, which absorbs a hundredth of its thickness
+    def single(albedo: Double) = albedo * 1.5 * 1.5 / Math.pow((1 - .092) * Math.exp(-.015), 2)
+    def base(albedo: Double) = single(albedo) / (1 + .596 * single(albedo))
+    def reflectance(statement: String) =
+      val coated = material(statement, Dialect.V3, Dialect.V4)
+      assert(coated.name == "coateddiffuse" && Math.abs(number(coated, "eta") - 1.5f) < 1e-4f)
+      coated.param("reflectance").get.floats(0)
+    val smooth = "\"float roughness\" 0 \"bool remaproughness\" false \"rgb Kd\" [.3 .3 .3]"
+    for name <- Seq("plastic", "uber") do
+      val found = reflectance(s"Material \"$name\" \"rgb Ks\" [1 1 1] $smooth")
+      assert(Math.abs(found / base(.3) - 1) < 2e-2, s"$name: $found")
+    val both = smooth.replace("\"float r", "\"float uroughness\" 0 \"float vr")
+    val blend = reflectance(s"Material \"substrate\" \"rgb Ks\" [.04 .04 .04] $both")
+    assert(Math.abs(blend / base(23 / 28.0 * .3 * .96) - 1) < 2e-2, blend)
+
   test("plastic without gloss is diffuse, and nothing is lost"):
     val world = "Material \"plastic\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [.3 .3 .3] Shape \"sphere\""
     assert(converted(world, Dialect.V3, Dialect.V4).warnings.isEmpty)
