@@ -501,6 +501,34 @@ class InMemory(unittest.TestCase):
             candela.run("resume", "nope.film")
         self.assertEqual(caught.exception.file, "nope.film")
 
+    def test_faults_of_whole_files_are_problems(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            empty, cut = Path(folder) / "e.obj", Path(folder) / "a.stl"
+            empty.write_text("# nothing\n")
+            cut.write_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n")
+            for file in (empty, cut):
+                (problem,) = candela.check(file)
+                self.assertEqual((problem.severity, problem.file), ("error", str(file)))
+                with self.assertRaises(candela.SceneError) as caught:
+                    candela.render(file)
+                self.assertEqual(caught.exception.problems[0].text, problem.text)
+            empty.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            missing = os.path.join(folder, "nope.exr")
+            with self.assertRaises(candela.MissingFileError) as caught:
+                candela.render(empty, light=missing)
+            self.assertEqual(caught.exception.file, missing)
+
+    def test_wrong_kinds_of_arguments_are_named(self):
+        with self.assertRaisesRegex(TypeError, "progress must be a function of a Progress, found 3"):
+            candela.render(mitsuba(), progress=3)
+        with self.assertRaisesRegex(KeyError, "expected the name of a value, found 3"):
+            candela.load_dict(mitsuba()).parameters()[3]
+        with self.assertRaisesRegex(candela.MissingFileError, "file: `x.pbrt`"):
+            candela.render(b"x.pbrt")
+        vertices, faces = np.eye(3), np.zeros((0, 3), int)
+        with self.assertRaisesRegex(ValueError, "faces must be n × 3 integers, found none"):
+            candela.mesh(vertices, faces)
+
     def test_a_command_line_in_one_piece_is_told_how_to_separate_it(self):
         for words in (["compare", "a.exr", "b.exr"], "compare a.exr b.exr", ("compare", "a.exr")):
             with self.assertRaisesRegex(candela.UsageError, r'candela.run\("compare", "a.exr"'):

@@ -60,7 +60,9 @@ def mesh(vertices: Any, faces: Any, normals: Any = None, texcoords: Any = None) 
     points = _rows("vertices", vertices, 3)
     triangles = _rows("faces", faces, 3, kinds="iu")
     count = len(points)
-    if triangles.size and (triangles.min() < 0 or triangles.max() >= count):
+    if not triangles.size:
+        raise ValueError("faces must be n × 3 integers, found none")
+    if triangles.min() < 0 or triangles.max() >= count:
         found = f"{triangles.min()} to {triangles.max()}"
         raise ValueError(f"faces need indices from 0 to {count - 1}, found {found}")
     columns, names = [points], ["x", "y", "z"]

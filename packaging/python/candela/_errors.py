@@ -77,7 +77,8 @@ class CandelaWarning(UserWarning):
 
 
 _FIRST = re.compile(
-    r"^(?:(?P<file>.+?)(?::(?P<line>\d+):(?P<column>\d+)|#(?P<pointer>(?:/\S*?)?)): )?"
+    r"^(?:(?!(?:error|warning): )(?P<file>.+?)"
+    r"(?::(?P<line>\d+):(?P<column>\d+)|#(?P<pointer>(?:/\S*?)?))?: )?"
     r"(?P<severity>error|warning): (?P<message>.*?)(?: \[(?P<number>E\d{4})\])?$"
 )
 

@@ -68,6 +68,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
 
     def _path(self, key: str, changes: bool = True) -> Path:
         """Of a value; if it changes, also that of an object, or of what was deleted."""
+        if not isinstance(key, str):
+            raise KeyError(f"expected the name of a value, found {described(key)}")
         found = {**(self._deleted if changes else {}), **self._all(objects=changes)}
         # A colour may have taken the place of a texture, or a texture that of a colour
         names = (key, f"{key}.value", key[: -len(".value")] if key.endswith(".value") else key)

@@ -66,6 +66,8 @@ def render(
             "`render` returns one image: call it with sensor=0, sensor=1, …; or "
             "candela.run(\"render\", file, \"--sensor\", \"all\") writes a file of each"
         )
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of a Progress, found {described(progress)}")
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
         loaded = _scene(scene)  # whose files of arrays last as long as it
@@ -101,7 +103,7 @@ def version() -> str:
 def _scene(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
     if isinstance(scene, dict):
         return load_dict(scene)
-    return scene if isinstance(scene, Scene) else Scene(os.fspath(scene), None)
+    return scene if isinstance(scene, Scene) else Scene(os.fsdecode(scene), None)
 
 
 def _execute(

@@ -1,6 +1,7 @@
 package candela.api
 
 import candela.diagnostics.Code
+import candela.render.storage.FilmFile
 import java.nio.file.Path
 import java.time.Duration
 import java.util.Objects
@@ -40,9 +41,14 @@ final class RenderControl private (
   /** Saves the rendering in a film file (`.film`), which `candela resume` can continue, too. An
     * existing film of this rendering is continued; the image is bit-identical to that of an
     * uninterrupted rendering.
+    *
+    * @throws SceneException if the name doesn't end with `.film`
     */
   def withFilm(file: Path): RenderControl =
-    copy(film = Some(Objects.requireNonNull(file, "file")))
+    if !FilmFile.isName(Objects.requireNonNull(file, "file").toString) then
+      val message = s"`file` must be a name that ends with .${FilmFile.Suffix}, found `$file`"
+      Problems.fail(Code.OptionValue, message)
+    copy(film = Some(file))
 
   /** Sets how often the film file is written; it is also written at the end. */
   def withFilmInterval(time: Duration): RenderControl =

@@ -6,7 +6,8 @@ import java.nio.ByteBuffer
 /** OpenEXR images, through tinyexr.
   *
   * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
-  * of a multi-part file, the first part with colour. The pixels are those of the data window,
+  * of a multi-part file, the first part with colour, and beside it the channels of others that have
+  * the same pixels. The pixels are those of the data window,
   * whatever the display window is, as in pbrt. What the decoder does not support or decodes wrongly
   * is read by [[OpenExr]], if that is installed: DWA, HTJ2K, B44 with float channels, subsampled
   * channels such as those of luminance and chroma. Rejects deep pixels.
@@ -57,10 +58,18 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)
-    val order = this.order(part)
-    val data = new Array[Float](part.width * part.height * order.size)
-    ExrDecoder.decode(file, parts, chosen, order.toArray, data)
-    val names = order.map(part.channels(_).name)
+    val beside = parts.indices.filter(i => i != chosen && parts(i).covers(part))
+    val sources = (chosen +: beside.toVector).map(i => i -> order(parts(i)).toArray)
+    val names = sources.foldLeft(Vector.empty[String]): (taken, source) =>
+      val p = parts(source._1)
+      val inPart = source._2.toVector.map(p.channels(_).name)
+      taken ++ inPart.map(n => if taken.contains(n) then s"${p.name}.$n" else n)
+    if names.distinct.size < names.size then
+      throw ImageError(Code.DamagedImage, "two channels have the same name")
+    if part.width.toLong * part.height * names.size > Int.MaxValue - 8 then
+      throw ImageError(Code.TooLarge, "its parts are more than fit into memory")
+    val data = new Array[Float](part.width * part.height * names.size)
+    ExrDecoder.decode(file, parts, sources, data)
     Image(part.width, part.height, names, data, colorSpace = part.colorSpace)
 
   /** The channels of an image, by their numbers in the file: R, G, B, A, then the others. */

@@ -14,14 +14,15 @@ import java.nio.{ByteBuffer, IntBuffer}
 /** Calls the native decoder, for files whose header [[ExrHeader]] has accepted. */
 private[image] object ExrDecoder:
 
-  /** Decodes part `chosen` into `target`, interleaved: channel i of the target is channel
-    * `order(i)` of the file.
+  /** Decodes parts into `target`, interleaved.
+    *
+    * @param sources the parts of one size that are read, with the numbers of their channels in the
+    *                order of the target's
     */
   def decode(
       file: Array[Byte],
       parts: Vector[ExrPart],
-      chosen: Int,
-      order: Array[Int],
+      sources: Vector[(Int, Array[Int])],
       target: Array[Float]
   ): Unit =
     Natives.require("tinyexr")
@@ -31,10 +32,8 @@ private[image] object ExrDecoder:
       native.put(file).flip()
       val version = EXRVersion.calloc(stack)
       check(ParseEXRVersionFromMemory(version, native), stack.callocPointer(1))
-      val part = parts(chosen)
-      if version.multipart then
-        decodeMultipart(version, native, parts, chosen, order, target, stack)
-      else decodeSinglePart(version, native, part, order, target, stack)
+      if version.multipart then decodeMultipart(version, native, parts, sources, target, stack)
+      else decodeSinglePart(version, native, parts.head, sources.head._2, target, stack)
     finally
       MemoryUtil.memFree(native)
       stack.close()
@@ -56,7 +55,7 @@ private[image] object ExrDecoder:
     try
       requestFloats(header)
       check(LoadEXRImageFromMemory(image, header, file, error), error)
-      try gather(image, header, part, order, target)
+      try gather(image, header, part, order, target, first = 0)
       finally free(image)
     finally
       val _ = FreeEXRHeader(header)
@@ -65,8 +64,7 @@ private[image] object ExrDecoder:
       version: EXRVersion,
       file: ByteBuffer,
       parts: Vector[ExrPart],
-      chosen: Int,
-      order: Array[Int],
+      sources: Vector[(Int, Array[Int])],
       target: Array[Float],
       stack: MemoryStack
   ): Unit =
@@ -84,7 +82,12 @@ private[image] object ExrDecoder:
       try
         loop(parts.size)(i => InitEXRImage(images.get(i)))
         check(LoadEXRMultipartImageFromMemory(images, pointers, file, error), error)
-        try gather(images.get(chosen), header(chosen), parts(chosen), order, target)
+        try
+          sources.foldLeft(0): (first, source) =>
+            val (i, order) = source
+            gather(images.get(i), header(i), parts(i), order, target, first)
+            first + order.length
+          : Unit
         finally loop(parts.size)(i => free(images.get(i)))
       finally images.free()
     finally
@@ -101,13 +104,16 @@ private[image] object ExrDecoder:
       if pixelTypes.get(i) != TINYEXR_PIXELTYPE_UINT then
         val _ = requested.put(i, TINYEXR_PIXELTYPE_FLOAT)
 
+  /** @param first channel of the target */
   private def gather(
       image: EXRImage,
       header: EXRHeader,
       part: ExrPart,
       order: Array[Int],
-      target: Array[Float]
+      target: Array[Float],
+      first: Int
   ): Unit =
+    val channels = target.length / (part.width * part.height)
     val agrees = image.width == part.width && image.height == part.height &&
       image.num_channels == order.length && header.num_channels == order.length
     if !agrees then throw ImageError(Code.DamagedImage, "the header is damaged")
@@ -117,7 +123,7 @@ private[image] object ExrDecoder:
       part.tiling match
         case None =>
           val plane = Plane(image.images.get(fileChannel), part.width, isInteger)
-          plane.copy(target, part.width, order.length, to, 0, 0, part.width, part.height)
+          plane.copy(target, part.width, channels, first + to, 0, 0, part.width, part.height)
         case Some(tiling) =>
           val (tw, th) = (tiling.width, tiling.height)
           val tiles = image.tiles
@@ -128,7 +134,7 @@ private[image] object ExrDecoder:
               y + tile.height <= part.height && tile.width <= tw && tile.height <= th
             if !inside then throw ImageError(Code.DamagedImage, "a tile lies outside the image")
             val plane = Plane(tile.images(order.length).get(fileChannel), tw, isInteger)
-            plane.copy(target, part.width, order.length, to, x, y, tile.width, tile.height)
+            plane.copy(target, part.width, channels, first + to, x, y, tile.width, tile.height)
 
   /** A channel of the image or of a tile in native memory. */
   private final class Plane(address: Long, stride: Int, isInteger: Boolean):

@@ -17,6 +17,7 @@ private[image] final case class ExrChannel(
 
 /** Header of an EXR part, as far as needed to read it.
   *
+  * @param name   of the part, in a file of several
   * @param width  of the data window, as `height`
   * @param tiling present if the part is tiled
   * @param x, y   first pixel of the data window
@@ -26,6 +27,7 @@ private[image] final case class ExrChannel(
   * @param obstacle what the decoder can't read
   */
 private[image] final case class ExrPart(
+    name: String,
     channels: Vector[ExrChannel],
     compression: Int,
     width: Int,
@@ -39,6 +41,10 @@ private[image] final case class ExrPart(
     texts: Vector[(String, String)],
     obstacle: Option[String]
 ):
+  /** Whether it has the pixels of another part. */
+  def covers(part: ExrPart): Boolean =
+    (x, y, width, height) == (part.x, part.y, part.width, part.height)
+
   /** Uncompressed size of the finest level. */
   def storedBytes: Long = bytes(width, height)
 
@@ -207,8 +213,9 @@ private[image] object ExrHeader:
     val texts = attributes.toVector.collect:
       case (name, ("string", text)) if name != "type" && name != "name" =>
         name -> UTF_8.decode(text.duplicate).toString
+    val name = value("name", "string", 0).fold("")(n => UTF_8.decode(n.duplicate).toString)
     val part = ExrPart(
-      channels, compression, width.toInt, height.toInt, tiling, x0.toInt, y0.toInt, space,
+      name, channels, compression, width.toInt, height.toInt, tiling, x0.toInt, y0.toInt, space,
       placement, coding, texts.sortBy(_._1), unread
     )
     // The decoder trusts this number, and a wrong one crashes the process.

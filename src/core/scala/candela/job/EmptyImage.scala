@@ -111,8 +111,10 @@ object EmptyImage:
     else "; the light is not: the film's sensor, white balance or scale makes them so"
 
   private def sameness(plan: RenderPlan): String =
-    ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.hitsNothing)
-      .fold("")(_ => s": $Past")
+    ViewSurvey.of(plan).map(_.firstSurfaces).fold(""): seen =>
+      if seen.hitsNothing then s": $Past"
+      else if seen.hitsMediaOnly then ": all that is in view is borders of media, which are unseen"
+      else ""
 
   private def share(count: Int, of: Colors): String =
     if count == of.pixels then "all" else s"${100L * count / of.pixels} %"

@@ -83,12 +83,13 @@ object FilmKeeper:
 
   /** @throws SceneError if another rendering writes this film file, or none can */
   def locked(path: Path): FilmLock =
+    def refuse(reason: String) =
+      fail(Code.Unwritable, s"can't write `$path`: $reason", "choose another file")
+    if Files.isDirectory(path) then refuse("it is a folder")
+    if WholeFile.isPipe(path) then refuse("it is a pipe")
     val lock =
       try FilmLock.acquire(path)
-      catch
-        case e: IOException =>
-          val reason = WholeFile.reason(e)
-          fail(Code.Unwritable, s"can't write `$path`: $reason", "choose another file")
+      catch case e: IOException => refuse(WholeFile.reason(e))
     lock.getOrElse:
       fail(
         Code.FilmInUse,

@@ -222,7 +222,10 @@ private[scenefile] final class ParserRun(
         Problem.error(Code.NoDirective, at, s"expected a directive, found $shown", Some(help))
       else
         scene.blocks.isDoubtful = true
-        val help = Suggest.help(in.text, Directives.all.keys)
+        val help =
+          if in.touchesQuote then
+            Some("check the quotes: one is missing before this one, or one is too many")
+          else Suggest.help(in.text, Directives.all.keys)
         Problem.error(Code.UnknownDirective, at, s"unknown directive $shown", help)
     in.advance()
     throw SceneError(problem)

@@ -111,6 +111,9 @@ final class Tokenizer(
     tokenLine == line && lineStart >= 0 &&
       (lineStart.toInt until start).forall(i => source.bytes(i) <= ' ')
 
+  /** Whether the current token follows a quotation mark without a blank. */
+  def touchesQuote: Boolean = start > 0 && source.bytes(start - 1) == '"'
+
   /** Whether the current token is a number. */
   def isNumber: Boolean = kind == Token.Word && number.scan(start) == cursor
 

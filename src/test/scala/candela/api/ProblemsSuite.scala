@@ -1,7 +1,7 @@
 package candela.api
 
 import candela.cli.Captured
-import candela.testing.TempFolder
+import candela.testing.{Pipes, TempFolder}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -92,6 +92,19 @@ class ProblemsSuite extends AnyFunSuite:
         assert(code == 1 && captured.err.contains("a program has made the scene"), captured.err)
         assert(captured.err.contains("withFilm"), captured.err)
 
+  test("a film that can't be written is refused before the rendering"):
+    TempFolder.use: folder =>
+      val film = Files.createDirectory(folder.resolve("a.film"))
+      val pipe = folder.resolve("b.film")
+      val pipes = Option.when(Pipes.make(pipe))(pipe -> "a pipe")
+      Using.resource(LibraryScenes.built().scene().prepare(RenderSettings(samples = 1), 2)): job =>
+        for (path, what) <- (film -> "a folder") +: pipes.toVector do
+          val listener = new RenderListener:
+            override def progressed(progress: Progress): Unit = fail("it renders")
+          val control = RenderControl().withThreads(2).withFilm(path).withListener(listener)
+          val told = Pipes.unblocked(refused(job.render(control)))
+          assert(told.message == s"can't write `$path`: it is $what", told)
+
   test("a missing argument is named"):
     def named(body: => Any) = intercept[NullPointerException](body).getMessage
     val none = Parameters()
@@ -105,6 +118,8 @@ class ProblemsSuite extends AnyFunSuite:
     val scene = LibraryScenes.built().scene()
     assert(named(scene.prepare(null)) == "settings" && named(scene.check(null)) == "settings")
     assert(named(RenderControl().withFilm(null)) == "file")
+    val image = refused(RenderControl().withFilm(Path.of("img.exr")))
+    assert(image.message.contains("must be a name that ends with .film, found `img.exr`"), image)
 
   test("a path of another file system says what to do instead"):
     TempFolder.use: folder =>
@@ -117,5 +132,6 @@ class ProblemsSuite extends AnyFunSuite:
         Using.resource(scene.prepare(RenderSettings(samples = 1), 2)): job =>
           val saved = refused(job.render(2).image.save(path))
           assert(saved.help.get.contains("`bytes`"), saved)
-          val film = refused(job.render(RenderControl().withThreads(2).withFilm(path)))
+          val film =
+            refused(job.render(RenderControl().withThreads(2).withFilm(system.getPath("a.film"))))
           assert(film.number == saved.number && !film.help.get.contains("parse"), film)

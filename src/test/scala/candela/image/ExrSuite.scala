@@ -55,7 +55,11 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     finally pool.close()
 
   test("of several parts the one with colour is read"):
-    assertHolds(Exr.read(resource("multipart")), rgb)
+    assertHolds(Exr.read(resource("multipart")), rgb :+ ("Z" -> 6))
+
+  test("parts with the same pixels are read beside it, under names of their own"):
+    val beside = Vector("N.X" -> 4, "N.Y" -> 5, "shadow.R" -> 0, "depth" -> 6)
+    assertHolds(Exr.read(resource("parts")), rgb ++ beside)
 
   test("channels of any name come after R, G, B and A"):
     val others = Vector("A" -> 3, "N.X" -> 4, "N.Y" -> 5, "depth" -> 6)

@@ -105,6 +105,8 @@ class EmptyImageSuite extends AnyFunSuite:
   test("an image of one colour is told of"):
     val sky = said(scene(Sky), "render")
     assert(sky.contains("all pixels have the same colour: the camera looks past all"), sky)
+    val border = said(scene(Sky + "Material \"interface\"\n" + Sphere), "render")
+    assert(border.contains("same colour: all that is in view is borders of media"), border)
 
   test("an image that the film makes negative or NaN is told of"):
     TempFolder.use: folder =>

@@ -67,9 +67,15 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
       model(primitive = ""","mode":5""")
     )
 
+  /** Of a file that is there only meanwhile. */
+  private def inMap(background: Option[ModelGround] = None) = TempFolder.use: folder =>
+    val file = folder.resolve("a.exr")
+    ImageFiles.write(file, Image.rgb(8, 4))
+    lit(ModelLight.Surroundings(s"$file"), background)
+
   test("the light that is asked for replaces a model's own, and the ground is of a colour"):
-    val names = Vector(ModelLight.Studio, ModelLight.Sky, ModelLight.Surroundings("a.exr"))
-      .map(lit(_).lights.map(_.light.name))
+    val names = Vector(lit(ModelLight.Studio), lit(ModelLight.Sky), inMap())
+      .map(_.lights.map(_.light.name))
     assert(names == Vector(Vector("infinite"), Vector("sunsky"), Vector("infinite")))
     val red = Rgb(0.5f, 0f, 0f)
     val ground = lit(ModelLight.Sky, Some(ModelGround.Colored(red))).shapes.last.material
@@ -80,8 +86,9 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
     assert(misspelt.help.contains("did you mean `studio`?"))
     val absent = intercept[SceneError](lit(ModelLight.Surroundings("sun"))).problems.head
     assert(absent.help.exists(_.contains("studio, sky or an image file")))
-    val lone = intercept[SceneError]:
-      lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
+    val missing = intercept[SceneError](lit(ModelLight.Surroundings("a.exr"))).problems.head
+    assert(missing.message == "no such file: `a.exr`" && missing.code == Code.NoSuchFile)
+    val lone = intercept[SceneError](inMap(Some(ModelGround.Colored(red))))
     assert(lone.problems.head.code == Code.OptionMisfit)
 
   test("an environment map that is not twice as wide as high is a warning"):
@@ -94,7 +101,7 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
       assert(problems(6, 6).exists(_.contains("has 6×6 pixels, and is stretched")))
 
   test("a map is seen from within, not mirrored, with its middle ahead"):
-    val map = lit(ModelLight.Surroundings("a.exr")).lights.head
+    val map = inMap().lights.head
     val toWorld = map.lightToWorld.start
     // pbrt-v3 has the middle at -x, what is right of it towards -y, and the top at z
     assert(toWorld.vector(Vec3(-1, 0, 0)) == Vec3(0, 0, -1))

@@ -5,7 +5,7 @@ import candela.color.Rgb
 import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.geometry.Bounds3
 import candela.image.ImageSize
-import candela.io.FileName
+import candela.io.SceneFolder
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
@@ -116,9 +116,9 @@ private final class Surroundings(
       val ground = if isInside then None else onGround(flat(_))
       scene.copy(lights = scene.lights :+ sky, shapes = scene.shapes ++ ground)
     case ModelLight.Surroundings(file) =>
-      val near = Suggest.nearest(file, Vector("studio", "sky"))
-      if !Files.exists(Path.of(file)) && (near.isDefined || FileName.suffix(Path.of(file)).isEmpty)
-      then
+      if !Files.exists(Path.of(file)) then
+        val near = Suggest.nearest(file, Vector("studio", "sky"))
+          .orElse(SceneFolder.suggestionFor(Path.of(file)))
         val help =
           near.fold("--light takes studio, sky or an image file")(n => s"did you mean `$n`?")
         throw SceneError(Problem.general(Code.NoSuchFile, s"no such file: `$file`", Some(help)))

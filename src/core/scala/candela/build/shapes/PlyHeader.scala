@@ -70,6 +70,7 @@ private[build] final case class PlyHeader(
     unreadLists ++ unread.map(_.name)
 
 private[build] object PlyHeader:
+  private val ObjWords = Set("#", "mtllib", "o", "g", "v")
 
   /** @param fail reports a problem at a byte offset */
   def read(source: Source, fail: (Long, String) => Nothing): PlyHeader =
@@ -77,7 +78,11 @@ private[build] object PlyHeader:
     val elements = mutable.ArrayBuffer.empty[PlyElement]
     val images = mutable.ArrayBuffer.empty[PlacedText]
     val lines = Lines(source)
-    if lines.line() != "ply" then fail(0, "not a PLY file; it must begin with `ply`")
+    val first = lines.line()
+    if first != "ply" then
+      val isObj = ObjWords(first.takeWhile(_ > ' '))
+      val hint = if isObj then "; it looks like OBJ: `candela convert` makes PLY of it" else ""
+      fail(0, s"not a PLY file, which begins with `ply`$hint")
     var isInHeader = true
     while isInHeader do
       if lines.isAtEnd then

@@ -6,6 +6,7 @@ import candela.render.RenderState
 
 import java.io.{EOFException, IOException}
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 import scala.util.Try
 
@@ -44,6 +45,9 @@ object FilmFile:
 
   /** File extension. */
   val Suffix = "film"
+
+  /** Whether a file's name has the extension, in letters of any case. */
+  def isName(file: String): Boolean = file.toLowerCase(Locale.ROOT).endsWith(s".$Suffix")
 
   /** Where the previous copy is kept: beside the file, not beside a link to it. */
   def previous(path: Path): Path =

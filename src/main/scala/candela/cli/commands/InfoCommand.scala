@@ -33,7 +33,10 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
 
   private def described(film: FilmHeader): Vector[String] =
     val share = film.shards.size.toDouble / film.count
-    val samples = s"${Figures.general(film.done * share)} of ${film.samples} per pixel"
+    val done = Figures.general(film.done * share)
+    val samples =
+      if film.done > film.samples then s"$done per pixel, ${film.samples} planned"
+      else s"$done of ${film.samples} per pixel"
     val about = Vector(
       "scene" -> film.scene,
       "size" -> film.size,

@@ -4,8 +4,6 @@ import candela.render.Shard
 import candela.render.storage.FilmFile
 import candela.settings.TextForm
 
-import java.util.Locale
-
 import scopt.{OParser, Read}
 
 /** Options of saved renderings.
@@ -30,8 +28,7 @@ object FilmOptions:
   /** All of them are listed. */
   private[cli] val MaxFrames = 1_000_000
 
-  def isFilm(name: String): Boolean =
-    name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
+  def isFilm(name: String): Boolean = FilmFile.isName(name)
 
   /** Whether the rendering is to be saved. */
   private[cli] def asksForFilm(o: Options): Boolean =

@@ -1,6 +1,5 @@
 package candela.cli.options
 
-import candela.base.Version
 import candela.diagnostics.{Code, Suggest}
 import candela.cli.terminal.{ExitCode, TextTable}
 
@@ -19,7 +18,7 @@ private[cli] final class HelpText(columns: Int):
     val render = CommandTable.of(Command.Render)
     val options = Usual.flatMap(render.option).map(option)
     Vector(
-      s"candela ${Version.current}",
+      VersionText.program(),
       "usage: candela [command] [options] file...",
       ""
     ) ++ commands.flatten ++ ("" +: TextTable.wrap(More, columns)) ++ options.flatten ++ (
@@ -157,7 +156,9 @@ private[cli] object UsageErrors:
     val name = option.dropWhile(_ == '-').takeWhile(c => c != '=' && c != ':')
     val options = row.options
     val isShort = !option.startsWith("--")
-    if options.exists(o => o.name == name || (isShort && o.shortOpt.contains(name))) then
+    if row.option("define").isDefined && isShort && name.startsWith("D") then
+      s"-D needs a value, as in -D${Some(name.tail).filter(_.nonEmpty).getOrElse("NAME")}=VALUE"
+    else if options.exists(o => o.name == name || (isShort && o.shortOpt.contains(name))) then
       s"--${options.find(o => o.name == name || o.shortOpt.contains(name)).get.name} is given twice"
     else
       val otherRows = CommandTable.rows.filter(r => r != row && r.option(name).isDefined)

@@ -12,10 +12,13 @@ private[cli] object VersionText:
 
   /** @param facts written by build.sbt */
   def lines(facts: Properties = written): Vector[String] =
-    val version = facts.getProperty("version", Version.current)
     val commit = facts.getProperty("commit", "")
     val sources = if commit.isEmpty then "" else s", commit $commit"
-    Vector(s"candela $version$sources", java, kernels)
+    Vector(s"${program(facts)}$sources", java, kernels)
+
+  /** As `candela 0.1.0`. */
+  def program(facts: Properties = written): String =
+    s"candela ${facts.getProperty("version", Version.current)}"
 
   private def java: String =
     val vm = System.getProperty("java.vm.version", "")

@@ -167,7 +167,9 @@ class PlyFileSuite extends AnyFunSuite:
     assert(problem.message == "can't read the mesh `no.ply`: no such file")
 
   test("a header that makes no sense is an error that shows the line"):
-    assert(error("solid\n").contains("line 1: not a PLY file"))
+    assert(error("solid\n").contains("line 1: not a PLY file") && !error("solid\n").contains("OBJ"))
+    for obj <- Seq("# made by hand\n", "v 0 0 0\n", "mtllib a.mtl\n") do
+      assert(error(obj).contains("it looks like OBJ: `candela convert`"), obj)
     assert(error("ply\nformat ascii 1.0\n").contains("must end with `end_header`"))
     assert(error("ply\nformat utf8 1.0\n").contains("line 2: unknown format: `format utf8 1.0`"))
     assert(error("ply\nformat a\u0007b\n").endsWith("`format a?b`"))

@@ -163,6 +163,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--light-groups types a.pbrt" -> "--light-groups must be statement, type, or names",
     "--light-groups key=a,b a.pbrt" -> "--light-groups must be statement, type, or names",
     "--light-groups my-key=a a.pbrt" -> "--light-groups must be statement, type, or names",
+    "-Dfocus a.pbrt" -> "-D needs a value, as in -Dfocus=VALUE",
     "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
     "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
     "-outfle x.exr a.pbrt" -> "did you mean `--outfile`?",
