@@ -16,7 +16,7 @@ import candela.scene.{Scene, SurfaceNames}
   * @param hidesEmitters whether the camera sees through emitters
   * @param skyCovers     whether samples of the sky count as covered
   * @param firstHit      what the ray meets first, if a layer asks for it
-  * @param media         that cover what is behind them, if there are any
+  * @param media         that cover what is behind them, if there are any and a layer asks
   */
 final class VisibleSurface(
     val scene: Scene,

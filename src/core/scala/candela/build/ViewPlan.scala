@@ -2,7 +2,7 @@ package candela.build
 
 import candela.diagnostics.Code
 import candela.aov.{
-  FirstHit, ImageLayer, Layer, NamedLayer, ScreenMotion, StrategyLayer, VisibleSurface
+  FirstHit, HitValue, ImageLayer, Layer, NamedLayer, ScreenMotion, StrategyLayer, VisibleSurface
 }
 import candela.build.integrators.IntegratorPlan
 import candela.color.ColorBasis
@@ -196,6 +196,9 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
       if hasAny(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
     val first = Option.when(image.layers.exists(_.isInstanceOf[NamedLayer])):
       FirstHit(world.scene, context.origin.position, context.resources.basis)
+    val wantsCoverage = image.layers.exists:
+      case NamedLayer(_, value, _) => value == HitValue.Colors
+      case layer => layer == Layer.Alpha
     val scene = context.description
     val surface = VisibleSurface(
       world.scene,
@@ -207,7 +210,7 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
       skyCovers = context.rules.skyCovers && !scene.hidesEmitters && !hidesSky &&
         world.scene.environments.nonEmpty,
       first,
-      world.transmittance
+      if wantsCoverage then world.transmittance else None
     )
     val groups = world.method.strategies.map(_.groups)
       .orElse(world.scene.lightGroups.filter(_ => world.method.dividesLight))

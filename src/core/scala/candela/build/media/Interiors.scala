@@ -17,15 +17,18 @@ final class Interiors private (scene: SceneDescription):
 
   /** Primitives that are closed only together are one mesh. */
   private def filled(shapes: Vector[ShapeDescription]): Vector[FilledRegion] =
-    val meshes = mutable.LinkedHashMap.empty[Any, Vector[Int]]
-    for (s, i) <- shapes.zipWithIndex if s.insideMedium.nonEmpty do
-      val key = if FilledMesh(Vector(s.shape)).isOpen then (s.insideMedium, s.objectToWorld) else i
-      meshes.updateWith(key)(before => Some(before.getOrElse(Vector.empty) :+ i)): Unit
-    meshes.values.toVector.map: members =>
+    val parts =
+      for (s, i) <- shapes.zipWithIndex if s.insideMedium.nonEmpty
+      yield (i, FilledMesh(Vector(s.shape)))
+    def region(mesh: FilledMesh, members: Vector[Int]) =
       val first = shapes(members.head)
-      val mesh = FilledMesh(members.map(shapes(_).shape))
       val medium = first.insideMedium
       FilledRegion(medium, mesh, first.objectToWorld.start, grids(medium), members)
+    val (open, closed) = parts.partition(_._2.isOpen)
+    val joined = open.map(_._1).groupBy(i => (shapes(i).insideMedium, shapes(i).objectToWorld))
+    val together =
+      joined.values.map(members => region(FilledMesh(members.map(shapes(_).shape)), members))
+    (closed.map((i, mesh) => region(mesh, Vector(i))) ++ together).sortBy(_.members.head)
 
   private val single = filled(scene.shapes)
   private val inObjects =
