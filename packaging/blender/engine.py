@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from . import export, settings
+from . import export, settings, world
 from .candela import CandelaError, load
 from .candela._session import cancel, close, execute
 
@@ -110,7 +110,9 @@ class _Rendering:
         width, height = _size(render)
         seed = own.seed + (self.scene.frame_current if own.use_animated_seed else 0)
         words = ["--resolution", f"{width}x{height}"]
-        words += ["--spp", str(own.samples), "--seed", str(seed)]
+        # Those that the sampler has: powers of two
+        samples = 1 << (own.samples - 1).bit_length()
+        words += ["--spp", str(samples), "--seed", str(seed)]
         x0, x1, y0, y1 = self.bounds
         if (x0, x1, y0, y1) != (0, width, 0, height):
             words += ["--pixelbounds", f"{x0},{x1},{height - y1},{height - y0}"]
@@ -122,7 +124,7 @@ class _Rendering:
             words.append("--denoise")
         if render.film_transparent:
             words += ["--film", "rgba"]
-        elif not _is_sky_visible(self.scene.world):
+        elif not _is_sky_visible(world.of(self.scene, self.layer)):
             words += ["--sky", "hide"]
         if not self.engine.is_animation and not bpy.app.background:
             words.append("--write-partial-images")
@@ -137,6 +139,10 @@ class _Rendering:
             ("shadingnormal", self.layer.use_pass_normal),
             ("albedo", self.layer.candela.use_pass_albedo),
         )
+
+    def _exposure(self):
+        """As the add-on Cycles has it, if it is enabled."""
+        return getattr(getattr(self.scene, "cycles", None), "film_exposure", 1.0)
 
     def _execute(self, command, image: Path):
         answers = queue.Queue()
@@ -210,7 +216,7 @@ class _Rendering:
         passes = result.layers[0].passes
         colors = image["Denoised"] if "Denoised" in image else image.rgb
         alpha = image.alpha if image.alpha is not None else np.ones(colors.shape[:2], np.float32)
-        _fill(passes, "Combined", np.dstack([colors, alpha]))
+        _fill(passes, "Combined", np.dstack([colors * self._exposure(), alpha]))
         if "position" in image:
             depth = np.abs(image["position"][..., 2:3])
             _fill(passes, "Depth", np.where(depth == 0, np.float32(1e10), depth))
@@ -235,9 +241,9 @@ def _fill(passes, name, values):
         found.rect.foreach_set(np.ascontiguousarray(values[::-1], np.float32).ravel())
 
 
-def _is_sky_visible(world):
+def _is_sky_visible(sky):
     """As the add-on Cycles has it, if it is enabled."""
-    visibility = getattr(world, "cycles_visibility", None)
+    visibility = getattr(sky, "cycles_visibility", None)
     return visibility is None or visibility.camera
 
 

@@ -9,22 +9,33 @@ import math
 from .nodes import linked, output_of, unlinked
 
 LUMENS_PER_WATT = 683.0
+_TYPES = {"POINT": "point", "SPOT": "spot", "SUN": "directional"}
 
 
-class Power:
-    """The power of a light as it is when the export begins."""
+def fields(lamp, matrix, warn):
+    """The light of KHR_lights_punctual, if it is one, and `extras.candela.light` of its node.
 
-    def __init__(self, light):
-        self._light = light
-        tint = light.temperature_color if light.use_temperature else (1.0, 1.0, 1.0)
-        scale = light.energy * 2 ** getattr(light, "exposure", 0.0)
-        self._color = [scale * c * t for c, t in zip(light.color, tint)]
-        self._is_of_all = getattr(light, "normalize", True)
+    :param lamp: an object; what gives no light is None
+    """
+    light = lamp.data
+    if getattr(getattr(light, "cycles", None), "is_portal", False):
+        return None, None
+    watts = _watts(light, matrix, warn)
+    if light.type == "AREA":
+        described, more = None, _area(light, watts, matrix, warn)
+    else:
+        described, more = _punctual(light, watts, matrix, warn)
+    return described, more and {**more, "inView": lamp.visible_camera}
 
-    def watts(self, matrix, warn):
-        """Red, green and blue in watts; of a sun, in W/m²."""
-        area = 1.0 if self._is_of_all else self._light.area(matrix_world=matrix)
-        return [c * area * f for c, f in zip(self._color, _emission(self._light, warn))]
+
+def _watts(light, matrix, warn):
+    """Red, green and blue in watts; of a sun, in W/m²."""
+    tint = light.temperature_color if light.use_temperature else (1.0, 1.0, 1.0)
+    scale = light.energy * 2 ** getattr(light, "exposure", 0.0)
+    if not getattr(light, "normalize", True):
+        scale *= light.area(matrix_world=matrix)
+    colors = zip(light.color, tint, _emission(light, warn), strict=True)
+    return [scale * c * t * e for c, t, e in colors]
 
 
 def _emission(light, warn):
@@ -43,33 +54,33 @@ def _emission(light, warn):
     return (1.0, 1.0, 1.0)
 
 
-def _brightest(watts):
-    """A factor, and a colour of at most 1."""
+def _punctual(light, watts, matrix, warn):
     power = max(watts)
-    return power, [w / power for w in watts] if power > 0 else [1.0, 1.0, 1.0]
-
-
-def punctual(light, watts, warn):
-    """The light of KHR_lights_punctual, and `extras.candela.light` of its node."""
-    power, color = _brightest(watts)
     unit = LUMENS_PER_WATT if light.type == "SUN" else LUMENS_PER_WATT / (4 * math.pi)
-    fields = {"color": color, "intensity": power * unit}
+    described = {
+        "type": _TYPES[light.type],
+        "name": light.name,
+        "color": [w / power for w in watts] if power > 0 else [1.0, 1.0, 1.0],
+        "intensity": power * unit,
+    }
     if light.type == "SUN":
-        return fields, {"angle": min(light.angle, math.pi)}
+        return described, {"angle": min(light.angle, math.pi)}
     more = {"radius": light.shadow_soft_size}
     if light.type == "SPOT":
         outer = min(light.spot_size / 2, math.pi / 2)
-        fields["spot"] = {"innerConeAngle": 0.0, "outerConeAngle": outer}
+        described["spot"] = {"innerConeAngle": 0.0, "outerConeAngle": outer}
         more["blend"] = light.spot_blend
         if light.use_square:
             warn(f"the square cone of light '{light.name}' is not supported; using a round one")
         if light.spot_size > math.pi + 1e-4:
             warn(f"the cone of light '{light.name}' is over 180°; using 180°")
-    return fields, more
+        scale = matrix.to_scale()
+        if max(scale) - min(scale) > 1e-4 * max(scale):
+            warn(f"the scale of light '{light.name}' is ignored: its cone is round")
+    return described, more
 
 
-def area(light, watts, matrix, warn):
-    """`extras.candela.light` of an area light."""
+def _area(light, watts, matrix, warn):
     is_wide = light.shape in ("RECTANGLE", "ELLIPSE")
     width, height = light.size, light.size_y if is_wide else light.size
     is_round = light.shape in ("DISK", "ELLIPSE")

@@ -1,8 +1,9 @@
-"""What Blender's glTF exporter loses of materials, and of objects."""
+"""What Blender's glTF exporter loses of materials."""
 
 import numpy as np
 
 from . import surfaces
+from .geometry import rendered, slots
 from .nodes import linked, muted, output_of, source, tree_of, unlinked, upstream
 
 # Those that the exporter reads
@@ -17,41 +18,19 @@ _COAT_INPUTS = {"Coat IOR": 1.5, "Coat Tint": (1, 1, 1, 1)}
 _CLIPS = ("ROUND", "SUBTRACT", "LESS_THAN", "GREATER_THAN")  # of alpha
 _FACTORS = ("RGB", "VALUE", "ATTRIBUTE", "VERTEX_COLOR")
 _DEPTHS_WITH_ALPHA = (32, 64, 128)  # bits of a pixel
-_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
-_INVISIBLE = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
-_SHADOWLESS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission",
-               "visible_shadow")
 
 
-def check(depsgraph, warn):
-    """Names what is left out of the objects that are rendered."""
+def check(depsgraph, override, warn):
+    """Names what is left out of the materials that are rendered.
+
+    :param override: a material instead of all
+    """
     checked = set()
-    for instance in depsgraph.object_instances:
-        each = instance.object.original
-        if each in checked or not instance.show_self:
-            continue
-        checked.add(each)
-        _check_object(each, warn)
-        for slot in each.material_slots:
-            material = slot.material
-            if material is not None and material not in checked:
-                checked.add(material)
-                _check_material(material, warn)
-
-
-def _check_object(each, warn):
-    if each.type not in _GEOMETRY | _INVISIBLE | {"VOLUME"}:
-        kind = each.type.lower().replace("_", " ")
-        warn(f"object '{each.name}' ({kind}) is not supported; left out")
-    if any(system.settings.type == "HAIR" for system in each.particle_systems):
-        warn(f"the hair of object '{each.name}' is not supported; left out")
-    if any(m.type == "FLUID" and m.fluid_type == "DOMAIN" for m in each.modifiers):
-        warn(f"the fluid of object '{each.name}' is not supported; left out")
-    if each.type not in _INVISIBLE and not all(getattr(each, name) for name in _SHADOWLESS):
-        warn(f"the ray visibility of object '{each.name}' is ignored")
-    for name, words in (("is_holdout", "a holdout"), ("is_shadow_catcher", "a shadow catcher")):
-        if each.type not in _INVISIBLE and getattr(each, name):
-            warn(f"object '{each.name}' is {words} in Cycles; rendered as others")
+    for instance in rendered(depsgraph):
+        for material in slots(instance.object, override):
+            if material is not None and material.original not in checked:
+                checked.add(material.original)
+                _check_material(material.original, warn)
 
 
 def _check_material(material, warn):

@@ -27,7 +27,8 @@ class CandelaPreferences(bpy.types.AddonPreferences):
 class CandelaSettings(bpy.types.PropertyGroup):
     samples: IntProperty(
         name="Samples",
-        description="Samples per pixel; a maximum if there is a time or error limit",
+        description="Samples per pixel, rounded up to a power of two; a maximum if there is a "
+        "time or error limit",
         default=64,
         min=1,
         soft_max=4096,

@@ -9,29 +9,26 @@ import bpy
 from mathutils import Matrix, Vector
 
 from . import media, nanovdb
-
-# From z up to y up
-_UPRIGHT = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+from .geometry import UPRIGHT, numbers, rendered
 
 
-def nodes(depsgraph, folder: Path, warn):
+def nodes(depsgraph, override, folder: Path, warn):
     """Name, matrix and medium of each volume that is rendered; its grid is a file in the folder."""
     found, written = [], {}
-    for instance in depsgraph.object_instances:
+    for instance in rendered(depsgraph):
         each = instance.object
-        is_hidden = each.original.hide_render and not instance.is_instance
-        if each.type != "VOLUME" or not instance.show_self or is_hidden:
+        if each.type != "VOLUME":
             continue
         data, name = each.data, each.original.name
-        material = next((m for m in _materials(each) if m is not None), None)
+        materials = [override] if override else _materials(each)
+        material = next((m for m in materials if m is not None), None)
         key = (data.as_pointer(), material)
         if key not in written:
             file = folder / f"volume-{len(written) + 1}.nvdb"
             written[key] = _medium(data, material, file, lambda text, n=name: _warn(n, text, warn))
         if written[key] is not None:
             medium, place, to_object = written[key]
-            matrix = _UPRIGHT @ instance.matrix_world @ to_object
-            columns = [c for column in matrix.col for c in column]
+            columns = numbers(UPRIGHT @ instance.matrix_world @ to_object)
             scale = _density(data, instance.matrix_world)
             found.append((name, columns, {**medium.fields(scale), **place}))
     return found

@@ -19,6 +19,11 @@ _UPRIGHT = Matrix(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
 _MIDDLE = Matrix(((0, 0, -1), (-1, 0, 0), (0, 1, 0)))
 
 
+def of(scene, view_layer):
+    """The world that is rendered, or None."""
+    return getattr(view_layer, "world_override", None) or scene.world
+
+
 def environment(world, folder: Path, warn):
     """What lights the scene from everywhere; an image is written to the folder."""
     if world is None:

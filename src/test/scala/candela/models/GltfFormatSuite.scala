@@ -212,6 +212,18 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
     val fov = Math.toRadians(scene.camera.get.param("fov").get.floats.head)
     assert(Math.abs(Math.tan(fov / 2) - Math.tan(0.5) * 0.5) < 1e-6)
 
+  test("a mirrored camera mirrors the image, and looks where its -z points"):
+    val cameras = """,
+      "cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":1,"znear":0.1}}]"""
+    def seen(scale: String) =
+      val nodes = s"""{"mesh":0},{"camera":0,"scale":$scale}"""
+      val scene = read(model(""","mode":5""", nodes = nodes, roots = "0,1", others = cameras))
+      scene.worldToCamera.start.point(Vec3(1f, 2f, 3f))
+    assert(seen("[2,2,2]") == Vec3(1f, 2f, -3f))
+    assert(seen("[-1,1,1]") == Vec3(-1f, 2f, -3f))
+    assert(seen("[1,-1,1]") == Vec3(1f, -2f, -3f))
+    assert(seen("[1,1,-1]") == Vec3(1f, 2f, 3f))
+
   test("a model that is wrong is an error with a JSON pointer"):
     def replaced(from: String, to: String) = error(model(""","mode":5""").replace(from, to))
     assert(error("{").contains("not valid JSON"))
