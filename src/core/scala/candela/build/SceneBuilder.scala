@@ -59,8 +59,8 @@ object SceneBuilder:
         s"can't render ${crop.width}×${crop.height} pixels at once, at most $MaxPixels",
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
-    checkLimits(context, image, crop, sampling)
     val perPixel = view.samplesOverride.getOrElse(sampling.sampler.samplesPerPixel)
+    checkLimits(context, image, crop, perPixel)
     val filmSize =
       FilmSize.lowerBound(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(heap, filmSize, context)
@@ -124,14 +124,13 @@ object SceneBuilder:
       context: BuildContext,
       image: ImageSetup,
       crop: PixelBounds,
-      sampling: SamplingSetup
+      samples: Int
   ): Unit =
     val (allowance, scene) = (context.resources.allowance, context.description)
     val pixels = crop.pixels * (1L + image.layers.size)
     allowance.check(Limit.Pixels, pixels, scene.film.map(_.pos)):
       val layers = if image.layers.isEmpty then "" else s" in ${1 + image.layers.size} layers"
       s"an image of ${crop.width}×${crop.height} pixels$layers"
-    val samples = sampling.sampler.samplesPerPixel
     allowance.check(Limit.Samples, samples, scene.sampler.map(_.pos)):
       s"$samples samples per pixel"
     for

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.diagnostics.Code
+import candela.diagnostics.{Code, Limit}
 import candela.aov.{
   FirstHit, HitValue, ImageLayer, Layer, NamedLayer, ScreenMotion, StrategyLayer, VisibleSurface
 }
@@ -29,9 +29,13 @@ private[build] final class ViewSetup(
 ):
   val film: ImageSetup = ImageSetup.of(context, settings)
 
+  /** Samples per pixel to take at most, whatever is asked for later. */
+  val maxSamples: Int = context.resources.allowance.capped(Limit.Samples, RenderPlan.Endless)
+
   /** Samples per pixel, if not as many as the sampler's points are made for. */
   val samplesOverride: Option[Int] =
-    control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
+    val count = control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
+    count.map(n => if n == RenderPlan.Endless then maxSamples else n)
   val integrator: IntegratorPlan = integratorIn(context)
   val image: ImageSetup = film.copy(layers = film.layers ++ integrator.layers)
   val sampling: SamplingSetup =
@@ -123,6 +127,7 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
       built = world.costs,
       sampleWindow = image.sampleWindow,
       samples = samplesOverride,
+      maxSamples = view.maxSamples,
       sight = Some(world.sight),
       hidesSky = hidesSky,
       adaptive = adaptive

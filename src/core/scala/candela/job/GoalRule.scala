@@ -14,13 +14,15 @@ import candela.settings.RenderGoal
   * @param recorder            measures the error
   * @param finishesFirstSample whether each pixel gets a sample, whatever the time
   * @param earlier             relative MSE of the image that the rendering begins with, if known
+  * @param isLimited           whether a limit has set `planned`
   */
 final class GoalRule(
     val goal: RenderGoal,
     planned: Int,
     recorder: ErrorRecorder,
     finishesFirstSample: Boolean = false,
-    earlier: Option[Interval] = None
+    earlier: Option[Interval] = None,
+    isLimited: Boolean = false
 ) extends StoppingRule:
   private var ending = Option.empty[GoalRule.Ending]
   private var samplesDone, step, passCount = 0
@@ -33,7 +35,11 @@ final class GoalRule(
   /** What ended a rendering. */
   def endedBy(rendering: Rendering): GoalRule.Ending =
     val isCut = rendering.samplesDone < planned
-    ending.filter(_ == GoalRule.Ending.Error || isCut).getOrElse(GoalRule.Ending.Samples)
+    ending.filter(_ == GoalRule.Ending.Error || isCut).getOrElse(bySamples)
+
+  /** What ends it if no goal does. */
+  val bySamples: GoalRule.Ending =
+    if isLimited then GoalRule.Ending.Limit else GoalRule.Ending.Samples
 
   private def end(by: GoalRule.Ending): Unit = ending = ending.orElse(Some(by))
 
@@ -116,6 +122,7 @@ object GoalRule:
     case Time extends Ending("time")
     case Error extends Ending("error")
     case Samples extends Ending("spp")
+    case Limit extends Ending("limit samples")
 
   /** Of a time; what ends later was asked for. */
   private val MinTimeFraction = 0.9

@@ -22,7 +22,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   private val live =
     val planned = pixels * Math.max(0, plan.samplesPerPixel - earlierSamples) / shard.count
     val canKeepOn = plan.method.canKeepOn && plan.adaptive.isEmpty && shard.isWhole &&
-      checkpointer.isEmpty && plan.samplesPerPixel < RenderPlan.Endless
+      checkpointer.isEmpty && plan.samplesPerPixel < plan.maxSamples
     Live(plan, job, queue, state, planned, canKeepOn, () => seconds)
   private val timeLeft =
     TimeLeft(schedule, pixels.toDouble / shard.count, earlierSamples, rule, listener)
@@ -64,12 +64,14 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   /** Adds samples beyond the planned ones, as long as a viewer wants them. */
   private def keepOn(): Unit =
     var wave = schedule.waves
-    while live.keepsOn && continues do
-      // A third of all samples is new: seldom enough for the workers to wait for each other
-      val done = schedule.firstSample(wave)
-      wave += Math.max(1, done / 2 / Schedule.LargestWave)
-      live.extend(schedule.firstSample(wave) - done)
-      renderPass(wave, schedule.firstSample(wave))
+    def done = schedule.firstSample(wave)
+    // A third of all samples is new: seldom enough for the workers to wait for each other
+    def next = wave + Math.max(1, done / 2 / Schedule.LargestWave)
+    while live.keepsOn && continues && schedule.firstSample(next) <= plan.maxSamples do
+      val earlier = done
+      wave = next
+      live.extend(done - earlier)
+      renderPass(wave, done)
 
   /** Takes samples until each pixel has `samples`, none of the wave `endWave` or a later one. */
   private def renderPass(endWave: Int, samples: Int): Unit =

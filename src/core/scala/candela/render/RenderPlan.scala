@@ -35,6 +35,7 @@ import candela.scene.SurfaceNames
   * @param sampleWindow      pixels beyond which no samples are taken, if there are any
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
+  * @param maxSamples        samples per pixel that are never exceeded, whatever viewers ask for
   * @param sight             what the camera can see
   * @param hidesSky          whether the camera sees no sky, though it lights the scene
   * @param adaptive          whether a pixel needs all samples, if it doesn't always; of [[Tiles]]
@@ -65,6 +66,7 @@ final case class RenderPlan(
     built: Vector[Cost] = Vector.empty,
     sampleWindow: Option[PixelBounds] = None,
     samples: Option[Int] = None,
+    maxSamples: Int = RenderPlan.Endless,
     sight: Option[Sight] = None,
     hidesSky: Boolean = false,
     adaptive: Option[AdaptiveSampling] = None

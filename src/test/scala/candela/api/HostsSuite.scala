@@ -4,6 +4,7 @@ import candela.testing.TempFolder
 
 import java.net.URI
 import java.nio.file.{FileSystems, Files, Path}
+import java.time.Duration
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -47,6 +48,13 @@ class HostsSuite extends AnyFunSuite:
         Using.resource(scene.prepare(settings, 2))(_.render(control)).samplesPerPixel
       val first = samples()
       assert(first < 4096 && samples() == first && samples() == first)
+
+  test("a goal ends at the limit of samples"):
+    val how = ReadSettings().withLimit("samples", "2")
+    val scene = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how)
+    val goal = RenderSettings().withError(1e-9).withTime(Duration.ofSeconds(20))
+    val result = Using.resource(scene.prepare(goal, 2))(_.render(2))
+    assert(result.samplesPerPixel == 2 && result.isComplete)
 
   test("a path of another file system is refused, and not looked for on the disk"):
     inFile(LibraryScenes.text()): file =>

@@ -1,5 +1,6 @@
 package candela.cli.commands
 
+import candela.diagnostics.Limit
 import candela.io.FileName
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
@@ -37,6 +38,7 @@ final class PreviewCommand(
       FileName.withSuffix(OutputFiles.path(scene).getFileName, OutputFormat.preview.suffix)
     val terminalKind =
       Option.when(terminal.isInteractive)(Thumbnail.kindOf(terminal.environment)).flatten
+    val limits = options.control.limits.effective
     options.copy(
       files = Vector(scene),
       outfiles =
@@ -50,7 +52,7 @@ final class PreviewCommand(
       ,
       settings = options.settings.copy(
         preview = true,
-        samples = Some(Samples),
+        samples = Some(limits.getOrElse(Limit.Samples, Samples.toLong).min(Samples).toInt),
         goal = RenderGoal(time = Some(Seconds)),
         reading = options.settings.reading.copy(keepGoing = true)
       ),

@@ -20,7 +20,11 @@ private[cli] object MissedGoal:
         s"the error is $formatted, not ${Figures.percentage(asked)}"
       val planned = Figures.count(rendering.samplesPerPixel, "sample")
       ProblemText.numbered(
-        s"warning: ${(error ++ time).mkString(", and ")}: all $planned " +
-          "per pixel are taken; a larger --spp, or none, allows more",
+        s"warning: ${(error ++ time).mkString(", and ")}: all $planned per pixel are taken; " +
+          advice(rule.bySamples),
         Code.MissedGoal
       )
+
+  private def advice(ending: GoalRule.Ending): String =
+    if ending == GoalRule.Ending.Limit then "--limit allows no more: samples=N changes the limit"
+    else "a larger --spp, or none, allows more"

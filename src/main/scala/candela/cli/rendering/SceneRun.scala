@@ -41,7 +41,8 @@ private[cli] final class SceneRun(
       // A reference tells another error than the saved one, which is estimated
       val earlier = keeping.filter(_ => options.reference.isEmpty)
         .flatMap(k => k.savedError(k.samplesDone))
-      GoalRule(settings.goal, plan.samplesPerPixel, recorder, isPreview, earlier)
+      val isLimited = plan.samplesPerPixel == plan.maxSamples
+      GoalRule(settings.goal, plan.samplesPerPixel, recorder, isPreview, earlier, isLimited)
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 

@@ -153,6 +153,31 @@ class LimitsSuite extends AnyFunSuite:
       val file = Files.writeString(folder.resolve("s.pbrt"), many).toString
       assert(Captured.run("check", "--sandbox", file)._1 == 1)
 
+  test("samples: a goal ends at the limit, with its image, also of a film"):
+    TempFolder.use: folder =>
+      val lit = scene("LightSource \"infinite\"\nTranslate 0 0 3\nShape \"sphere\"\n", Small)
+        .replace("\"integer pixelsamples\" 1", "\"integer pixelsamples\" 16")
+      val file = Files.writeString(folder.resolve("s.pbrt"), lit).toString
+      val (image, film) = (folder.resolve("o.exr").toString, folder.resolve("o.film").toString)
+      def rendered(words: String*) =
+        val (code, captured) = Captured.run(words*)
+        assert(code == 0, captured.err)
+        captured.out + captured.err
+      val goal = Vector("--error", "1e-7%", "--time", "20s")
+      val limit = Vector("--sandbox", "--limit", "samples=8")
+      val said = rendered((Vector(file, "-o", image) ++ goal ++ limit)*)
+      assert(said.contains(", 8 spp, ") && said.contains("; ended by --limit samples"), said)
+      assert(said.contains("all 8 samples per pixel are taken; --limit allows no more: samples=N"))
+      assert(said.contains("[E1104]"), said)
+      rendered(file, "--spp", "4", "--sampler", "progressive", "-o", image, "--checkpoint", film)
+      val resumed = rendered((Vector("resume", film) ++ goal ++ limit)*)
+      assert(resumed.contains(", 8 spp (4 in this run), "), resumed)
+      assert(resumed.contains("; ended by --limit samples"), resumed)
+      val preview = rendered((Vector("preview", file, "-o", s"$folder/p.png") ++ limit)*)
+      assert(preview.contains(", 8 spp, "), preview)
+      val (code, refused) = Captured.run((Vector(file, "-o", image, "--spp", "9") ++ limit)*)
+      assert(code == 1 && refused.err.contains("9 samples per pixel; at most 8"), refused.err)
+
   test("time: a rendering ends with an error and without an image; its checkpoint is kept"):
     TempFolder.use: folder =>
       val long = scene("LightSource \"infinite\"\nShape \"sphere\"\n")
