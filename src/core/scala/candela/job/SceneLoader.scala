@@ -5,6 +5,7 @@ import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
+import scala.annotation.unused
 import scala.jdk.CollectionConverters.*
 import scala.util.{Try, Using}
 
@@ -13,6 +14,9 @@ abstract class SceneLoader:
 
   /** @throws SceneError if the scene has errors */
   def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared
+
+  /** @throws SceneError if it is known that there is no such scene */
+  def checkExists(@unused scene: String): Unit = ()
 
   /** The name of a scene's image before it is loaded, if it can be told. */
   def imageName(
@@ -31,6 +35,8 @@ final case class ImageName(file: Option[String], folder: Path)
 object SceneLoader:
 
   object FromFile extends SceneLoader:
+    override def checkExists(scene: String): Unit = SceneName.existing(scene): Unit
+
     def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
       Render.prepare(scene, settings, control)
 
@@ -58,6 +64,8 @@ object SceneLoader:
     * @param files loads all others
     */
   final class OfText(name: String, text: String, files: SceneLoader) extends SceneLoader:
+    override def checkExists(scene: String): Unit = if scene != name then files.checkExists(scene)
+
     def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
       if scene != name then files.load(scene, settings, control)
       else

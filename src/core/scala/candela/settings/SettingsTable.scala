@@ -65,7 +65,11 @@ object SettingsTable:
     value("seed", "N", "random seed (default 0)")(_.seed)((s, n) => s.copy(seed = n))(using
       TextForm.int
     ),
-    flag("quick", "draft: a quarter of the width and height, one sample per pixel")(_.quick)(
+    flag(
+      "quick",
+      "draft: a quarter of the width and height, unless --resolution is given, and one sample " +
+        "per pixel, unless --spp is"
+    )(_.quick)(
       _.copy(quick = true)
     ),
     region(
@@ -227,7 +231,9 @@ object SettingsTable:
       "render sensor N of a Mitsuba scene, or camera N of a model, from 0 on, or all, one image " +
         "each (default: the first)"
     )(_.reading.sensors)((s, all) => parse(s)(_.copy(sensors = Some(all))))
-      .explained("The images are `SCENE-0.exr`, `SCENE-1.exr` …, or `%d` in `--outfile` is N."),
+      .explained(
+        "Of several, the images are `SCENE-0.exr`, `SCENE-1.exr` …; `%d` in `--outfile` is N."
+      ),
     option(
       "resolution",
       "WxH|W|P%",
@@ -254,14 +260,16 @@ object SettingsTable:
       "render N images of a model, which turns around once"
     )(_.reading.model.turntable)((s, n) => model(s)(_.copy(turntable = Some(n))))(using
       TextForm.int.filter("from 1 to 10000")(n => n >= 1 && n <= 10000)
-    ).explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …, or `%d` in `--outfile` is N."),
+    ).explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …; `%d` in `--outfile` is N."),
     option(
       "at",
       "TIME|FIRST:STEP:LAST",
       "show a model at this time of an animation, e.g. 1.5 or 1.5s, or render an image of each " +
         "of these times, e.g. 0:0.1:2 (default: at rest)"
     )(_.reading.model.state.times)((s, t) => state(s)(_.copy(times = Some(t))))
-      .explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …, or `%d` in `--outfile` is N."),
+      .explained(
+        "Of several, the images are `MODEL-0.exr`, `MODEL-1.exr` …; `%d` in `--outfile` is N."
+      ),
     option(
       "animation",
       "NAME|INDEX",

@@ -38,6 +38,21 @@ final class SensorsSuite extends AnyFunSuite:
       val (code, captured) = Captured.run(s"$file", "--sensor", "1", "--outfile", s"$image")
       assert(code == 0 && width(image) == 6, captured.err)
 
+  test("`%d` is the number of the image, also where there is only one"):
+    TempFolder.use: folder =>
+      def written(options: String*)(name: String, widths: Int*)(image: String) =
+        val words = Vector(s"${scene(folder, widths*)}", "-o", s"$folder/$name") ++ options
+        val (code, captured) = Captured.run(words*)
+        assert(code == 0 && Files.deleteIfExists(folder.resolve(image)), captured.err)
+      written("--sensor", "all")("v-%d.exr", 4)("v-0.exr")
+      written("--sensor", "0")("v-%02d.exr", 4)("v-00.exr")
+      written("--sensor", "1")("v%d.exr", 4, 6)("v1.exr")
+      written("--sensor", "1", "--spark", "fake")("v%d.exr", 4, 6)("v1.exr")
+      written()("v%d.exr", 4)("v%d.exr")
+      val several = Vector(s"${scene(folder, 4, 6)}", "--sensor", "all", "--spark", "fake")
+      val (code, captured) = Captured.run((several ++ Vector("-o", s"$folder/v%d.exr"))*)
+      assert(code == 1 && captured.err.contains("has several images; --spark renders one"))
+
   test("images without a name have that of the scene and the sensor's number"):
     TempFolder.use: folder =>
       def name(sensor: Option[Int], widths: Int*) =

@@ -79,3 +79,27 @@ class SeveralScenesSuite extends AnyFunSuite:
       val (code, captured) = Captured.run(s"$folder/none.pbrt", good.toString)
       assert(code == 1 && captured.err.contains("no such scene file"), captured.err)
       assert(Files.exists(folder.resolve("a.exr")))
+
+  test("missing scenes are told of before the first is rendered"):
+    TempFolder.use: folder =>
+      def scene(name: String, text: String) = Files.writeString(folder.resolve(name), text).toString
+      val faulty = scene("a.pbrt", film("") + "WorldBegin\nShape \"spere\"\n")
+      val (code, captured) = Captured.run(faulty, s"$folder/none.pbrt")
+      assert(code == 1)
+      val places = Vector("none.pbrt", "spere").map(captured.err.indexOf)
+      assert(places.head >= 0 && places.head < places.last, captured.err)
+      assert(captured.out.contains("2 failed"), captured.out)
+
+  test("a checkpoint without its suffix is no scene, unless there is one by its name"):
+    TempFolder.use: folder =>
+      def scene(name: String) =
+        val text = film(s"\"string filename\" \"$folder/$name.exr\"") + world
+        Files.writeString(folder.resolve(name), text).toString
+      val (code, captured) = Captured.run(scene("a.pbrt"), "--checkpoint", s"$folder/state.chk")
+      assert(code == 2 && captured.err.contains(
+        s"--checkpoint needs a name that ends with .film, found `$folder/state.chk`"
+      ))
+      assert(!Files.exists(folder.resolve("a.pbrt.exr")))
+      assert(Captured.run("--checkpoint", scene("state"))._1 == 0)
+      val (missing, named) = Captured.run("--checkpoint", s"$folder/b.pbrt")
+      assert(missing == 1 && named.err.contains("no such scene file"), named.err)

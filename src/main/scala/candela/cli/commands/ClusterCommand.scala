@@ -44,7 +44,7 @@ private[cli] final class ClusterCommand(
       renderer.checkAll(sequence.frames)
       terminal.interrupts.during(cancellation):
         Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
-          for frame <- sequence.frames if !cancellation.isRequested do
+          for frame <- renderer.present(sequence) if !cancellation.isRequested do
             while open.size >= AtOnce do finishOne()
             start(frame, cluster)
           while open.nonEmpty do finishOne()
@@ -75,9 +75,14 @@ private[cli] final class ClusterCommand(
 
   /** Sends a scene to the cluster, unless its image is done. */
   private def submit(frame: Frame, cluster: Cluster): Unit =
-    val Frame(scene, outfiles, options, _) = frame
     val prepared = renderer.load(frame)
-    val writer = renderer.images(frame, prepared)
+    if prepared.description.isFollowed then
+      val message = s"`${frame.scene}` has several images; --spark renders one"
+      val help = Some("choose one, as --sensor 0 does; or render without --spark")
+      throw SceneError(Problem.general(Code.OptionMisfit, message, help))
+    val numbered = renderer.numbered(frame, prepared, 0)
+    val Frame(scene, outfiles, options, _) = numbered
+    val writer = renderer.images(numbered, prepared)
     val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
     if writer.isDone then
       prepared.close()

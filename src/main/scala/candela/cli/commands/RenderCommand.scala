@@ -54,7 +54,7 @@ final class RenderCommand(
   private[cli] def checkAll(frames: Vector[Frame]): Unit = files.checkAll(frames, loader)
 
   private def run(sequence: Sequence): ExitCode =
-    for frame <- sequence.frames do
+    for frame <- present(sequence) do
       // Files of v2 and v3 may have several worlds
       var world = Option(0)
       while world.nonEmpty && !cancellation.isRequested do
@@ -65,14 +65,36 @@ final class RenderCommand(
             Using.resource(load(frame, n)): prepared =>
               if isLookedAt then inspect(prepared)
               else
-                val isFollowed = prepared.description.isFollowed
-                val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
-                world = Option.when(isFollowed)(n + 1)
-                render(frame, prepared, names, sequence)
+                val files = numbered(frame, prepared, n).outfiles
+                world = Option.when(prepared.description.isFollowed)(n + 1)
+                render(frame, prepared, files, sequence)
     if !options.quiet && !cancellation.isRequested then
       sequence.summary.foreach(terminal.out.println)
     terminal.out.flush()
     sequence.code
+
+  /** Those of several scenes that are there. Missing ones fail before the others are rendered. */
+  private[cli] def present(sequence: Sequence): Vector[Frame] =
+    if sequence.frames.size == 1 then sequence.frames
+    else
+      sequence.frames.filter: frame =>
+        val code = report.guarded:
+          loader.checkExists(frame.scene)
+          ExitCode.Done
+        if code != ExitCode.Done then sequence.ended(frame.label)(code)
+        code == ExitCode.Done
+
+  /** With the names of the files of a world. */
+  private[cli] def numbered(frame: Frame, prepared: Prepared, world: Int): Frame =
+    frame.copy(outfiles =
+      Sequence.ofWorld(
+        frame.scene,
+        frame.outfiles,
+        options.settings.reading,
+        world,
+        prepared.description.isFollowed
+      )
+    )
 
   private[cli] def load(frame: Frame, world: Int = 0): Prepared =
     val Frame(scene, outfiles, options, _) = frame

@@ -5,6 +5,7 @@ import candela.cli.options.{FilmOptions, FrameNames, Options}
 import candela.cli.terminal.{ExitCode, Figures}
 import candela.image.{ImageFiles, OutputFormat}
 import candela.job.SceneFormat
+import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.Path
 
@@ -68,7 +69,7 @@ private[cli] object Sequence:
   val Digest = "rendering"
 
   /** The output files of a world, or a sensor, of a scene; its number is in their names if there
-    * are several.
+    * are several, and in the place of `%d` if an option chooses among several.
     *
     * @param n          index of the world
     * @param isFollowed whether another follows
@@ -77,10 +78,13 @@ private[cli] object Sequence:
   def ofWorld(
       scene: String,
       outfiles: Vector[String],
+      reading: ReadSettings,
       n: Int,
       isFollowed: Boolean
   ): Vector[String] =
-    if n == 0 && !isFollowed then outfiles
+    val chosen = first(reading)
+    if n == 0 && !isFollowed then
+      chosen.fold(outfiles)(number => outfiles.map(FrameNames.numbered(_, number)))
     else
       val format = SceneFormat.of(OutputFiles.path(scene))
       val several = s"`$scene` has several ${format.worlds}"
@@ -99,7 +103,15 @@ private[cli] object Sequence:
             message,
             Some("write %d, or %04d, for the number")
           ))
-        else FrameNames.numbered(name, n + format.firstWorld)
+        else FrameNames.numbered(name, n + chosen.getOrElse(format.firstWorld))
+
+  /** The number of the first image that options ask for, if they choose among several. */
+  private def first(reading: ReadSettings): Option[Int] = reading.sensors match
+    case Some(Sensors.One(index)) if !reading.model.hasSeveralImages => Some(index)
+    case sensors =>
+      Option.when(
+        sensors.nonEmpty || reading.model.turntable.nonEmpty || reading.model.state.times.nonEmpty
+      )(0)
 
   /** Whether all images are whole, and of the rendering with this digest. Those that can't hold it
     * are written before those that can.

@@ -1,8 +1,13 @@
 package candela.cli.options
 
+import candela.job.SceneFormat
 import candela.render.Shard
 import candela.render.storage.FilmFile
 import candela.settings.TextForm
+
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
 
 import scopt.{OParser, Read}
 
@@ -34,11 +39,18 @@ object FilmOptions:
   private[cli] def asksForFilm(o: Options): Boolean =
     o.film.checkpoint.isDefined || o.outfiles.exists(isFilm)
 
-  /** Gives `--checkpoint` an empty value if no film file follows it. */
+  /** Gives `--checkpoint` an empty value if another option or a scene follows it. */
   def withValues(args: Seq[String]): Seq[String] =
     args.zipWithIndex.flatMap: (word, i) =>
-      val isAlone = word == "--checkpoint" && !args.lift(i + 1).exists(isFilm)
+      val isAlone = word == "--checkpoint" && args.lift(i + 1).forall(isNoFile)
       if isAlone then Seq(word, "") else Seq(word)
+
+  private def isNoFile(word: String): Boolean =
+    word.startsWith("-") || !isFilm(word) && isScene(word)
+
+  /** Whether it may be a scene: it is there, or has the name of one. */
+  private def isScene(word: String): Boolean =
+    Try(Path.of(word)).toOption.forall(p => Files.exists(p) || SceneFormat.named(p).isDefined)
 
 /** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
 private[cli] object FilmTable extends OptionRows:
@@ -82,7 +94,7 @@ private[cli] object FilmTable extends OptionRows:
       ))
       .validate: f =>
         if f.isEmpty || FilmOptions.isFilm(f) then success
-        else failure(s"--checkpoint must be a name that ends with .film, found `$f`")
+        else failure(s"--checkpoint needs a name that ends with .film, found `$f`")
       .action((f, o) => change(o)(_.copy(checkpoint = Some(f)))),
     every,
     opt[Shard]("shard").valueName("I/N")

@@ -56,6 +56,9 @@ private[candela] object IdleOptions:
     val isFilmAlone = o.outfiles.nonEmpty && o.outfiles.forall(FilmOptions.isFilm)
     idleOutputs ++ interval(o, isFilm) ++
       idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
+      idle("quick", " beside --resolution and --spp")(
+        o.settings.quick && o.settings.reading.resolution.isDefined && o.settings.samples.isDefined
+      ) ++
       idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
       idle("store-time", s": ${listed(formats)} files store no metadata")(
         o.settings.output.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)

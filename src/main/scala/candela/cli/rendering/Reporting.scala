@@ -86,6 +86,14 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
     case window: RenderRegion.Window => Some(TextForm.window.format(window))
     case _ => None
 
+  private def quick: Option[String] =
+    val settings = options.settings
+    val parts = Vector(
+      "a quarter of the width and height" -> settings.reading.resolution.isEmpty,
+      "1 spp" -> settings.samples.isEmpty
+    ).collect { case (part, true) => part }
+    Option.when(settings.quick && parts.nonEmpty)(parts.mkString(", "))
+
   private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
     Vector(
       "samples per pixel" -> Reporting.samples(rendering),
@@ -99,7 +107,7 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
         "memory of brightness levels" -> s"${Figures.metric(l.memory.toDouble)}B"
       ++
       options.reference.map("reference" -> _) ++
-      Option.when(options.settings.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
+      quick.map("quick" -> _) ++
       window.map("crop window" -> _) ++
       Option.when(options.settings.reading.keepGoing)("placeholders" -> loaded.standIns.toString)
 

@@ -1,6 +1,7 @@
 package candela.cli.files
 
 import candela.cli.FilmFilesSuite.{Folder, Paths, text}
+import candela.cli.options.CommandLine
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -41,6 +42,16 @@ class SequenceSuite extends AnyFunSuite:
       assert(code == 1, said.err)
       val counts = "2 rendered, 1 skipped (done already), 1 failed"
       assert(said.out.endsWith(s"\n4 scenes: $counts ($scene frame 0)\n"), said.out)
+
+  test("a number takes the place of `%d` where an option chooses among several images"):
+    def name(settings: String*): Vector[String] =
+      val reading = CommandLine.parse(settings :+ "a.gltf").toOption.get.settings.reading
+      Sequence.ofWorld("a.gltf", Vector("x%02d.exr"), reading, 0, isFollowed = false)
+    for option <- Vector("--turntable 1", "--at 1", "--at 0:1:0", "--sensor all", "--sensor 0") do
+      assert(name(option.split(' ')*) == Vector("x00.exr"), option)
+    assert(name("--sensor", "3", "--at", "1") == Vector("x03.exr"))
+    assert(name("--sensor", "3", "--turntable", "1") == Vector("x00.exr"))
+    assert(name("--resolution", "8x8") == Vector("x%02d.exr"))
 
   test("of many scenes that fail, the first are named"):
     inFolder: f =>

@@ -15,6 +15,8 @@ class IdleOptionsSuite extends AnyFunSuite:
 
   private val idle = Vector(
     "a.pbrt --sample 3" -> "--sample has no effect without --debug",
+    "a.pbrt --quick --resolution 64x48 --spp 4" ->
+      "--quick has no effect beside --resolution and --spp",
     "a.pbrt --checkpoint-every 5s" ->
       "--checkpoint-every has no effect without --checkpoint or --outfile FILE.film",
     "a.pbrt --debug --pixel 1,1 -o x.exr" ->
@@ -55,6 +57,8 @@ class IdleOptionsSuite extends AnyFunSuite:
   test("options that have an effect say nothing"):
     val lines = Vector(
       "a.pbrt --tonemap aces --bits 16 --exposure 1",
+      "a.pbrt --quick --resolution 64x48",
+      "a.pbrt --quick --spp 4",
       "a.pbrt -o x.exr,x.png --tonemap aces --bits 16 --dither",
       "a.pbrt -o x.exr --tonemap aces --thumbnail blocks",
       "a.pbrt -o x.exr --falsecolor --watch",
