@@ -90,9 +90,14 @@ final class SceneFolder private (
   def glance(name: String): Option[InputFile] =
     part(name).orElse(belonging(name).flatMap(_ => locate(name, None)))
 
-  /** A similar name in the folder, after `locate` has found nothing. */
+  /** A similar name in the folder, after `locate` has found nothing. Hidden files, such as locks,
+    * resemble hidden ones only.
+    */
   def suggestion(name: String): Option[String] =
-    SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p, guard.namesBeside(p)))
+    def isHidden(file: String) = file.startsWith(".")
+    SceneFolder.resolved(path, name).flatMap: p =>
+      val hidden = Option(p.getFileName).exists(f => isHidden(f.toString))
+      Suggest.file(p, guard.namesBeside(p).filter(isHidden(_) == hidden))
 
   /** A file's path from here. */
   def relativize(file: Path): Path = path.relativize(file)

@@ -18,6 +18,13 @@ class FilmLockSuite extends AnyFunSuite:
       val _ = Files.writeString(folder.resolve("part.pbrt"), "Shape \"disk\"\n")
       body(FilmFilesSuite.Folder(folder, scene))
 
+  test("a missing film resembles no lock, but a film"):
+    TempFolder.use: folder =>
+      def missing() = Captured.run("resume", s"$folder/nothere.film")._2.err
+      assert(missing().contains("nothere.film") && !missing().contains("did you mean"), missing())
+      val _ = Files.createFile(folder.resolve("nowhere.film"))
+      assert(missing().contains("did you mean `nowhere.film`?"), missing())
+
   test("the right to write a film has one owner, who leaves nothing behind"):
     TempFolder.use: folder =>
       val film = folder.resolve("a.film")

@@ -38,26 +38,25 @@ object Summary:
     val missing = noiseNote + placeholders(standIns) + darkness(r) + endNote
     val names = StrategyFiles.listed(written)
     if r.isComplete && r.seconds == 0 then
-      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      val done = if r.samplesDone == 0 then "less than 1" else ofShards(r.samplesDone, shards)
       s"wrote $names  ${r.film.width}x${r.film.height}, $done spp$missing"
     else if r.isComplete then
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
-      val share =
+      val done =
         if r.takenShare < 1 && r.earlier == 0 then
-          s"${average(r.samplesDone * r.takenShare / shards)} of "
-        else if shards == 1 then ""
-        else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
-      s"wrote $names  $size, $share${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +
+          s"${average(r.samplesDone * r.takenShare / shards)} of ${r.samplesDone}"
+        else ofShards(r.samplesDone, shards)
+      s"wrote $names  $size, $done spp${ofThisRun(r, shards)}, $seconds, " +
         s"$rates$missing"
     else
-      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      val done = if r.samplesDone == 0 then "less than 1" else shared(r.samplesDone, shards)
       val number =
         if !r.isOpenEnded then s"$done of ${r.samplesPerPixel} samples"
         else if r.samplesDone > 1 then s"$done samples"
         else s"$done sample"
-      s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
+      s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r, shards)}$missing"
 
   /** `8.77`: three digits. */
   private def average(samples: Double): String =
@@ -91,10 +90,10 @@ object Summary:
   private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 
   /** The seconds are those of this run alone. */
-  private def ofThisRun(r: Rendering): String =
+  private def ofThisRun(r: Rendering, shards: Int): String =
     if r.earlier == 0 then ""
     else if r.samplesDone == r.earlier then " (none added)"
-    else s" (${r.samplesDone - r.earlier} in this run)"
+    else s" (${shared(r.samplesDone - r.earlier, shards)} in this run)"
 
   private def placeholders(count: Int): String =
     if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
@@ -116,9 +115,17 @@ object Summary:
     val reason = if r.isComplete then "" else s"${ended(isLate)}: "
     s"${reason}kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
 
-  /** `continuing x.film at 12 samples per pixel` */
+  /** `continuing x.film at 12 samples per pixel`; of a shard, `at 3 of 12 samples per pixel` */
   def continues(film: FilmFile): String =
-    s"continuing ${film.path} at ${film.header.done} samples per pixel"
+    val done = ofShards(film.header.done, film.header.count)
+    s"continuing ${film.path} at $done samples per pixel"
+
+  /** The samples of one of the renderings that share them. */
+  private def shared(samples: Int, shards: Int): String =
+    Figures.general(samples.toDouble / shards)
+
+  private def ofShards(samples: Int, shards: Int): String =
+    if shards == 1 then samples.toString else s"${shared(samples, shards)} of $samples"
 
   /** The last lines of a rendering.
     *

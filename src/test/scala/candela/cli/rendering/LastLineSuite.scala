@@ -59,6 +59,16 @@ class LastLineSuite extends AnyFunSuite:
     assert(line(16).contains("16 spp (none added), ") && line(16).endsWith("; ended by --time"))
     assert(line(12).contains("16 spp (4 in this run), "))
 
+  test("a resumed shard counts its own samples, of those of all shards"):
+    TempFolder.use: folder =>
+      val (file, film) = (scene(folder), s"$folder/a.film")
+      assert(said(
+        file, "--spp", "16", "--sampler", "sobol", "--shard", "1/4", "--outfile", film
+      ).contains(", 4 of 16 spp, "))
+      val (code, captured) = Captured.run("resume", film, "--spp", "32")
+      assert(code == 0 && captured.err.contains(s"continuing $film at 4 of 16 samples per pixel\n"))
+      assert(captured.out.contains(", 8 of 32 spp (4 in this run), "), captured.out)
+
   test("fewer than four samples say too little"):
     TempFolder.use: folder =>
       for samples <- Vector("1", "2") do
