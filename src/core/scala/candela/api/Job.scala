@@ -3,8 +3,8 @@ package candela.api
 import candela.diagnostics.Code
 import candela.image.{Image, Oidn}
 import candela.job.{
-  Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, GoalRule, ImageFile, Prepared,
-  Render
+  Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, GoalRule, ImageFile, MissedGoal,
+  Prepared, Render
 }
 import candela.render.{
   Cancellation as CoreCancellation, RenderControl as CoreControl, RenderFailure,
@@ -146,7 +146,8 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       image(rendering, developed, denoising.map(_.describe)),
       recorder.flatMap(_.errorAt(rendering.samplesDone)).orElse(savedError),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
-      problems.toVector ++ EmptyImage.problem(prepared, rendering, developed)
+      problems.toVector ++ goal.flatMap(MissedGoal.problem(_, rendering)) ++
+        EmptyImage.problem(prepared, rendering, developed)
     )
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =

@@ -105,6 +105,13 @@ class ProblemsSuite extends AnyFunSuite:
           val told = Pipes.unblocked(refused(job.render(control)))
           assert(told.message == s"can't write `$path`: it is $what", told)
 
+  test("a goal that is missed is told of, one that is reached is not"):
+    val scene = LibraryScenes.built().scene()
+    for (error, expected) <- Vector(1e-6 -> Vector("E1104"), 0.9 -> Vector.empty) do
+      val settings = RenderSettings().withError(error).withSamples(4)
+      val told = Using.resource(scene.prepare(settings, 2))(_.render(2).problems)
+      assert(told.stream.map(_.number).toList == java.util.List.of(expected*), told)
+
   test("a missing argument is named"):
     def named(body: => Any) = intercept[NullPointerException](body).getMessage
     val none = Parameters()

@@ -1,5 +1,6 @@
 package candela.bench
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{FileName, Scratch, WholeFile}
 import java.nio.charset.StandardCharsets.UTF_8
@@ -13,7 +14,7 @@ import candela.bench.report.{
 import candela.bench.robustness.RobustnessRun
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{CommandRow, CommandService, Options}
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.render.Cancellation
 
 /** `candela robustness`, as the program looks it up. */

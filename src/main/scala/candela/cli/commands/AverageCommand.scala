@@ -1,8 +1,9 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.cli.files.OutputFiles
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{ImageEdits, ImageFiles, WriteOptions}
 import candela.job.ImageFile
 

@@ -1,9 +1,10 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.Code
 import candela.cli.files.{FileRegister, OutputFiles}
 import candela.cli.options.CompareOptions
-import candela.cli.terminal.{ExitCode, Figures, Terminal}
+import candela.cli.terminal.{ExitCode, Terminal}
 import candela.image.{Contents, Image, ImageEdits, ImageError, ImageFiles, OutputFormat}
 import candela.job.ReferenceFile
 import candela.measure.{BiasRegion, BiasTest, ErrorLayer, HeatMap, ImagePair, Renderings, TileSums}

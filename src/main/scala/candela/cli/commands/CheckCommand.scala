@@ -1,9 +1,10 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.{SceneError, Severity}
 import candela.cli.files.FilmName
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.job.{Prepared, SceneFormat, SceneLoader}
 
 import java.nio.file.Path

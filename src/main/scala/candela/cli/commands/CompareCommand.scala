@@ -1,5 +1,6 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{FileName, SceneFolder}
 import java.nio.file.{Files, Path}
@@ -9,7 +10,7 @@ import scala.util.Using
 
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat}
 import candela.measure.{ErrorLayer, ErrorMap, HeatMap, ImagePair, Metric, Metrics, OwnError}
 

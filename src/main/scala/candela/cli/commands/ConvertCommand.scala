@@ -1,11 +1,12 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.WholeFile
 import candela.build.TextureValues
 import candela.cli.files.{FileRegister, FilmName, Output, OutputFiles}
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.convert.{Baking, Converter, SceneText, SideFiles}
 import candela.job.{Render, SceneFormat, SceneName}
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}

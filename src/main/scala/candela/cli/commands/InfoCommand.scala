@@ -1,12 +1,13 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.base.loop
 import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path
 
 import candela.cli.files.{FilmInput, OutputFiles}
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
 import candela.render.storage.FilmHeader
 

@@ -1,7 +1,8 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError}
-import candela.cli.terminal.{ExitCode, Figures, Printer}
+import candela.cli.terminal.{ExitCode, Printer}
 import candela.geometry.Ray
 import candela.math.Vec3
 import candela.render.RenderPlan

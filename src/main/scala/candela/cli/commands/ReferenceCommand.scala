@@ -1,10 +1,11 @@
 package candela.cli.commands
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.FileName
 import candela.cli.files.{FileRegister, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, Figures, ProgressLine, Report, Terminal}
+import candela.cli.terminal.{ExitCode, ProgressLine, Report, Terminal}
 import candela.image.OutputFormat
 import candela.job.{FilmHeaders, FilmKeeper, Prepared, ReferenceFile, Render, SceneLoader}
 import candela.measure.ReferenceMean

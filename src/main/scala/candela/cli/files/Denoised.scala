@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.cli.terminal.Figures
+import candela.base.Figures
 import candela.image.Image
 import candela.job.Denoising
 import candela.measure.Errors

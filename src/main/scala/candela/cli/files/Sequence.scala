@@ -1,8 +1,9 @@
 package candela.cli.files
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.cli.options.{FilmOptions, FrameNames, Options}
-import candela.cli.terminal.{ExitCode, Figures}
+import candela.cli.terminal.ExitCode
 import candela.image.{ImageFiles, OutputFormat}
 import candela.job.SceneFormat
 import candela.settings.{ReadSettings, Sensors}

@@ -1,7 +1,7 @@
 package candela.cli.rendering
 
+import candela.base.Figures
 import candela.base.{ByteCount, JavaHeap}
-import candela.cli.terminal.Figures
 import candela.render.{Cost, CostKind, Costs, Rendering}
 import candela.report.CostFigure
 

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.cli.terminal.Figures
+import candela.base.Figures
 import candela.guiding.GuideOutcome
 import candela.report.LearnedFigure
 

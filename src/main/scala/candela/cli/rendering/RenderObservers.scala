@@ -1,9 +1,9 @@
 package candela.cli.rendering
 
+import candela.base.Figures
 import candela.diagnostics.Problem
 import candela.io.WholeFile
 import candela.cli.files.OutputFiles
-import candela.cli.terminal.Figures
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.Errors

@@ -1,9 +1,9 @@
 package candela.cli.rendering
 
+import candela.base.Figures
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.InputFile
 import candela.cli.files.OutputFiles
-import candela.cli.terminal.Figures
 import candela.film.Development
 import candela.image.{Image, ImageFiles}
 import candela.job.ErrorRecorder

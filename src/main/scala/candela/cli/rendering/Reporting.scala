@@ -1,5 +1,6 @@
 package candela.cli.rendering
 
+import candela.base.Figures
 import candela.base.Version
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{FileName, WholeFile}
@@ -8,7 +9,6 @@ import java.nio.file.Path
 
 import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
-import candela.cli.terminal.Figures
 import candela.job.{Denoising, ImageFile, Prepared}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}

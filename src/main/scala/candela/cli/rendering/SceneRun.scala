@@ -3,9 +3,11 @@ package candela.cli.rendering
 import candela.diagnostics.{Problem, SceneError, Severity}
 import candela.cli.files.Denoised
 import candela.cli.options.Options
-import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
+import candela.cli.terminal.{ExitCode, ProblemText, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, GoalRule, Prepared, Render, StrategyFiles}
+import candela.job.{
+  Denoising, ErrorRecorder, FilmKeeper, GoalRule, MissedGoal, Prepared, Render, StrategyFiles
+}
 import candela.render.{Cancellation, Looks, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
@@ -159,7 +161,8 @@ private[cli] final class SceneRun(
     )
     writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
-    if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
+    val missed = goal.filterNot(_ => isPreview).flatMap(MissedGoal.problem(_, rendering))
+    missed.foreach(ProblemText.print(_, terminal.err, hasColor = false))
     for log <- errorLog; remark <- log.remark if isPrinted do terminal.err.println(remark)
     val threads = options.control.threads
     val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):

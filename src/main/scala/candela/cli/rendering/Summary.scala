@@ -1,8 +1,9 @@
 package candela.cli.rendering
 
+import candela.base.Figures
 import candela.diagnostics.Code
 import candela.cli.options.Options
-import candela.cli.terminal.{Figures, ProblemText, Terminal}
+import candela.cli.terminal.{ProblemText, Terminal}
 import candela.job.{GoalRule, Prepared, StrategyFiles}
 import candela.measure.Interval
 import candela.render.{DiscardedSamples, Rendering}

@@ -1,5 +1,6 @@
 package candela.cli.terminal
 
+import candela.base.Figures
 import candela.base.JavaHeap
 import candela.diagnostics.{
   Code, Excerpt, Problem, Refusal, SceneError, Severity, SourcePos, Visible

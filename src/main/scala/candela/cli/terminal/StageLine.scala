@@ -1,5 +1,6 @@
 package candela.cli.terminal
 
+import candela.base.Figures
 import candela.render.Background
 import candela.settings.BuildStages
 

@@ -167,7 +167,9 @@ class LimitsSuite extends AnyFunSuite:
       val limit = Vector("--sandbox", "--limit", "samples=8")
       val said = rendered((Vector(file, "-o", image) ++ goal ++ limit)*)
       assert(said.contains(", 8 spp, ") && said.contains("; ended by --limit samples"), said)
-      assert(said.contains("all 8 samples per pixel are taken; --limit allows no more: samples=N"))
+      assert(said.contains(
+        "all 8 samples per pixel are taken [E1104]\n --limit allows no more: samples=N"
+      ))
       assert(said.contains("[E1104]"), said)
       rendered(file, "--spp", "4", "--sampler", "progressive", "-o", image, "--checkpoint", film)
       val resumed = rendered((Vector("resume", film) ++ goal ++ limit)*)

@@ -1,15 +1,14 @@
-package candela.cli.rendering
+package candela.job
 
-import candela.diagnostics.Code
-import candela.cli.terminal.{Figures, ProblemText}
-import candela.job.GoalRule
+import candela.base.Figures
+import candela.diagnostics.{Code, Problem, Severity}
 import candela.render.Rendering
 
 /** What is said of a rendering that ended before its goal. */
-private[cli] object MissedGoal:
+object MissedGoal:
 
   /** A warning, if all samples were taken before the goal was reached. */
-  def warning(rule: GoalRule, rendering: Rendering): Option[String] =
+  def problem(rule: GoalRule, rendering: Rendering): Option[Problem] =
     Option.when(rule.isMissed(rendering)):
       val time = rule.goal.time.map: asked =>
         s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
@@ -19,11 +18,8 @@ private[cli] object MissedGoal:
         val formatted = estimate.fold("not known")(e => s"${Figures.percentage(e)}")
         s"the error is $formatted, not ${Figures.percentage(asked)}"
       val planned = Figures.count(rendering.samplesPerPixel, "sample")
-      ProblemText.numbered(
-        s"warning: ${(error ++ time).mkString(", and ")}: all $planned per pixel are taken; " +
-          advice(rule.bySamples),
-        Code.MissedGoal
-      )
+      val message = s"${(error ++ time).mkString(", and ")}: all $planned per pixel are taken"
+      Problem(Code.MissedGoal, Severity.Warning, None, message, Some(advice(rule.bySamples)))
 
   private def advice(ending: GoalRule.Ending): String =
     if ending == GoalRule.Ending.Limit then "--limit allows no more: samples=N changes the limit"

@@ -1,4 +1,4 @@
-package candela.cli.terminal
+package candela.base
 
 import org.scalatest.funsuite.AnyFunSuite
 

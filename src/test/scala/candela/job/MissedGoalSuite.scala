@@ -1,8 +1,7 @@
-package candela.cli.rendering
+package candela.job
 
 import candela.color.Rgb
 import candela.film.Development
-import candela.job.{ErrorRecorder, GoalRule}
 import candela.render.{RenderControl, Renderer, TinyPlan}
 import candela.settings.RenderGoal
 
@@ -17,14 +16,16 @@ class MissedGoalSuite extends AnyFunSuite:
   test("what ends before its goal because all samples are taken says so, and what to do", Slow):
     def missed(options: RenderGoal) =
       val ended = GoalRule(options, 1000, ErrorRecorder(Development(), None))
-      MissedGoal.warning(ended, Renderer.render(plan, RenderControl(2, rule = ended)))
-    val why =
-      raw"all 1000 samples per pixel are taken; a larger --spp, or none, allows more \[E1104\]"
+      val rendering = Renderer.render(plan, RenderControl(2, rule = ended))
+      val problem = MissedGoal.problem(ended, rendering)
+      for p <- problem do assert(p.help.contains("a larger --spp, or none, allows more"))
+      problem.map(_.message)
+    val why = "all 1000 samples per pixel are taken"
     // The root of 0.0833 / 1000
     val noisy = missed(RenderGoal(error = Some(1e-4))).get
-    assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
+    assert(noisy.matches(raw"the error is 0\.9\d* %, not 0\.01 %: " + why))
     val early = missed(RenderGoal(time = Some(3600))).get
-    assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
+    assert(early.matches(raw"the rendering ended after [\d.]+ m?s, not .*: " + why))
     val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
     assert(both.contains("not 0.01 %, and the rendering ended after "))
     assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
