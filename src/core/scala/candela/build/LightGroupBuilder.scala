@@ -15,17 +15,24 @@ object LightGroupBuilder:
 
   /** @param statements of each light
     * @param glows      whether media emit light, too
+    * @param warn       is told of groups without lights
     */
   def groups(
       grouping: LightGrouping,
       statements: Vector[Declaration],
-      glows: Boolean
+      glows: Boolean,
+      warn: String => Unit
   ): LightGroups =
     val named = names(statements)
     val lights = statements.map(d => Light(d.name, named(d))) ++
       Option.when(glows)(Light(Media, Media))
     val groupNames = lights.map(groupOf(grouping, lights))
     val distinctNames = groupNames.distinct
+    grouping match
+      case LightGrouping.Named(groups) =>
+        for (name, _) <- groups if !distinctNames.contains(name) do
+          warn(s"--light-groups: `$name` gets no light, as other groups name its lights")
+      case _ => ()
     if distinctNames.size > MaxGroups then
       throw error(
         Code.OptionMisfit,

@@ -180,7 +180,12 @@ private[build] final class WorldBuilder(
       sidesByGeometry = !context.isV4,
       Option.when(context.resources.footprintUses.nonEmpty)(footprints),
       lightGroups =
-        grouping.map(LightGroupBuilder.groups(_, lights.map(_.statement), media.isEmissive))
+        grouping.map(LightGroupBuilder.groups(
+          _,
+          lights.map(_.statement),
+          media.isEmissive,
+          problems.warn(Code.IdleOption, None, _)
+        ))
     )
     warnOfDarkness(scene, media.glows(materials))
     warnOfLightPaths()

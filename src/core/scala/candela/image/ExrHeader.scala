@@ -41,6 +41,10 @@ private[image] final case class ExrPart(
     texts: Vector[(String, String)],
     obstacle: Option[String]
 ):
+  /** What the numbers of its channels are, for people. */
+  def precision: String =
+    channels.map(c => ExrHeader.Precisions(c.pixelType)).distinct.mkString(" and ")
+
   /** Whether it has the pixels of another part. */
   def covers(part: ExrPart): Boolean =
     (x, y, width, height) == (part.x, part.y, part.width, part.height)
@@ -110,6 +114,8 @@ private[image] object ExrHeader:
 
   /** Pixel type of channels of 16-bit floats. */
   val HalfFloat = 1
+
+  val Precisions: Vector[String] = Vector("integers", "half", "floats")
 
   /** Upper bound of the format's compression ratios: deflate reaches 1032, over the 3 of 4 bytes
     * that PXR24 keeps. Limits the memory that a damaged size can request.

@@ -91,6 +91,9 @@ object ImageFiles:
   def facts(path: Path): Vector[(String, String)] =
     part(path).fold(Vector.empty)(p => p.coding ++ p.texts)
 
+  /** What the numbers of an EXR file are: half, floats or integers. */
+  def precision(path: Path): Option[String] = part(path).map(_.precision)
+
   /** The place of an EXR file's image in a larger one, and its metadata. */
   def about(path: Path): (Option[ImageWindow], Vector[(String, String)]) =
     part(path).fold((None, Vector.empty))(p => (p.window, p.texts))

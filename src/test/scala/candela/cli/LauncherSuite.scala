@@ -130,6 +130,7 @@ class LauncherSuite extends AnyFunSuite:
       )
       assert(started.drop(7) == jar.toRealPath().toString +: words)
       assert(p.run(Seq("--spp", "4"), env).out.isEmpty && p.starts.size == 2)
+      assert(p.run(Seq("a.pbrt", "--spark", "sparc://x:1"), env).out.isEmpty && p.starts.size == 3)
 
   test("the program is told how people start it, which its benchmarks repeat"):
     staged: p =>

@@ -37,6 +37,7 @@ class NamedCommandsSuite extends AnyFunSuite:
     "TYPE" -> "plastic",
     "PARAMETER" -> "fov",
     "x0,x1,y0,y1" -> "0,9,0,9",
+    "$pixels" -> "0,9,0,9",
     "MASTER" -> "local[2]",
     "n" -> "3"
   )

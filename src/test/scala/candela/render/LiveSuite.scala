@@ -26,7 +26,11 @@ class LiveSuite extends AnyFunSuite:
     assert(seen.film.toImage(1f).data.sameElements(result.film.toImage(1f).data))
 
   /** The sampler's first numbers of a pixel, as they are used, and the result. */
-  private def numbers(spp: Int, until: Int): (Vector[Float], Rendering) =
+  private def numbers(
+      spp: Int,
+      until: Int,
+      maxSamples: Int = RenderPlan.Endless
+  ): (Vector[Float], Rendering) =
     var seen = Vector.empty[Float]
     var live: Option[Live] = None
     val plan = TinyPlan(spp = spp): (where, sampler) =>
@@ -35,7 +39,7 @@ class LiveSuite extends AnyFunSuite:
         if seen.size >= until then live.get.keepOn(false)
       Rgb.White
     val result = Renderer.render(
-      plan,
+      plan.copy(maxSamples = maxSamples),
       RenderControl(
         1,
         listener = RenderListener.onStart: l =>
@@ -53,6 +57,10 @@ class LiveSuite extends AnyFunSuite:
     assert(all.size == 5 + 4 * 64 + 2 * 64 && result.samplesDone == all.size && result.isComplete)
     assert(result.samplesPerPixel == all.size)
     assert(all.take(5) == planned && all.distinct.size == all.size)
+
+  test("a rendering that keeps on stays below the limit of samples"):
+    val (all, result) = numbers(spp = 5, until = 300, maxSamples = 132)
+    assert(all.size == 5 + 64 && result.samplesDone == all.size && result.isComplete)
 
   test("a rendering that no longer wants more ends with its planned samples"):
     val (all, result) = numbers(spp = 5, until = 3)

@@ -43,7 +43,8 @@ private[cli] final class ClusterCommand(
     val code = guarded:
       renderer.checkAll(sequence.frames)
       terminal.interrupts.during(cancellation):
-        Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
+        val master = options.cluster.master.mkString
+        Using.resource(Cluster.connect(master, note, terminal.environment)): cluster =>
           for frame <- renderer.present(sequence) if !cancellation.isRequested do
             while open.size >= AtOnce do finishOne()
             start(frame, cluster)

@@ -56,7 +56,10 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
 
   private def compared(image: Path, reference: Path): Comparison =
     val truth = ImageFiles.read(reference)
-    val comparison = Comparison(pairOf(ImageFiles.read(image), truth))
+    val measured = ImageFiles.read(image)
+    CompareCommand.checkParts(image -> measured, reference -> truth)
+    CompareCommand.checkParts(reference -> truth, image -> measured)
+    val comparison = Comparison(pairOf(measured, truth))
     // The error is that of R, G and B
     val errorSource = if comparison.pair.isColor then ErrorLayer.extract(truth) else truth
     comparison.copy(own =
@@ -118,6 +121,22 @@ object CompareCommand:
   private def check(file: Path): Unit = if !Files.exists(file) then
     val message = s"$file: there is no such file"
     throw SceneError(Problem.general(Code.NoSuchFile, message, SceneFolder.suggestionFor(file)))
+
+  /** @throws ImageError if an image is a crop of another one's size, as its file says */
+  private def checkParts(crop: (Path, Image), whole: (Path, Image)): Unit =
+    val (part, all) = (crop._2, whole._2)
+    if part.width != all.width || part.height != all.height then
+      for
+        window <- ImageFiles.about(crop._1)._1
+        if window.width == all.width && window.height == all.height
+      do
+        val (x, y) = (window.x, window.y)
+        val pixels = s"$x,${x + part.width},$y,${y + part.height}"
+        throw ImageError(
+          Code.DifferentImages,
+          s"${crop._1} has the pixels $pixels of an image as large as ${whole._1}; cut that one " +
+            s"with `candela image ${whole._1} --crop $pixels`"
+        )
 
 /** An image with its reference, and their error metrics.
   *

@@ -50,8 +50,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     files.completing:
       val baking = options.bake.map(Baking(_, TextureValues.last(_).map(f => f(_, _, _))))
       val converted = Converter.convert(scene, to, files, options.toPly.orElse(meshSize), baking)
-      val warnings = Excerpts.fill(converted.warnings)
-      report.warnings(scene.warnings ++ film ++ warnings, all = options.verbose)
+      val warnings = scene.warnings ++ film ++ Excerpts.fill(converted.warnings)
+      report.warnings(warnings, all = options.verbose)
       target match
         case Some(path) =>
           WholeFile.write(path): channel =>
@@ -74,7 +74,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
   private def summary(to: Dialect, warnings: Vector[Problem]): String =
     val dialect = to.toString.toLowerCase
     if warnings.isEmpty then dialect
-    else s"$dialect, ${Figures.count(warnings.size, "warning")}"
+    else s"$dialect, ${Figures.count(warnings.distinct.size, "warning")}"
 
   private def write(scene: SceneDescription, to: Writer): Unit =
     val writer = BufferedWriter(to, 1 << 16)

@@ -2,6 +2,7 @@ package candela.cli.commands
 
 import candela.base.Figures
 import candela.base.loop
+import candela.color.Encoding
 import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path
 
@@ -60,7 +61,8 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
   private def lines(path: Path, stored: StoredImage): Vector[String] =
     val bits = stored match
       case _: ByteImage => "8 bits"
-      case _ => "floats"
+      case _ if stored.encoding == Encoding.Srgb => "16 bits"
+      case _ => ImageFiles.precision(path).getOrElse("floats")
     val encoding = stored.encoding.toString.toLowerCase
     val about = Vector(
       "size" -> s"${stored.width}x${stored.height}",

@@ -182,6 +182,9 @@ final class LightLayersSuite extends AnyFunSuite:
     val wrong = LightGrouping.Named(Vector("key" -> Vector("point_11")))
     assert(problems(box(path), wrong) ==
       Vector("--light-groups: no light `point_11` (did you mean `point_10`?)"))
+    val taken = LightGrouping.Named(Vector("a" -> Vector("point_10"), "b" -> Vector("point")))
+    assert(problems(box(path), taken) ==
+      Vector("--light-groups: `b` gets no light, as other groups name its lights"))
     val many = "WorldBegin\n" + "LightSource \"point\"\n" * 101
     assert(problems(many, LightGrouping.Statements).head.startsWith(
       "the scene has 101 light groups, more than 100 (--light-groups type"

@@ -60,13 +60,22 @@ class ClusterCommandSuite extends AnyFunSuite:
       val broken = f.fail(Vector(f.scene, "--spark", "broken", "--outfile", f("a.exr")))
       assert(broken == "error: can't reach `broken` [E1007]\n start it\n")
 
-  test("without Spark, the message says how to get it"):
-    for services <- Vector(Iterator.empty, Iterator.single(NoSpark)) do
-      val failure = intercept[ClusterFailure](Cluster.connect("x", _ => (), services))
+  test("without Spark, the message says what is missing"):
+    def failure(services: Iterator[ClusterService], master: String, home: Option[String] = None) =
+      val environment = home.map("SPARK_HOME" -> _).toMap
+      intercept[ClusterFailure](Cluster.connect(master, _ => (), environment, services)).getMessage
+    val jar = failure(Iterator.empty, "local")
+    assert(jar.contains("needs candela-spark.jar") && jar.contains("`./sbt cluster/sparkJar`"))
+    def missing(master: String, home: Option[String] = None) =
+      failure(Iterator.single(NoSpark), master, home)
+    assert(missing("spark://a:7077").contains("SPARK_HOME is not set\nset SPARK_HOME to"))
+    assert(missing("local[2]", Some("/nowhere")).contains("none in SPARK_HOME: `/nowhere`\n"))
+    for master <- Vector("sparc://a:7077", "locals", "") do
+      val text = missing(master, Some("/nowhere"))
       assert(
-        failure.getMessage.startsWith("--spark needs Apache Spark's classes and candela-spark")
+        text.startsWith(s"`$master` is no master of Spark\nexpected spark://HOST:PORT, "),
+        text
       )
-      assert(failure.getMessage.contains("`./sbt cluster/sparkJar` makes the jar"))
 
   private object NoSpark extends ClusterService:
     def connect(master: String, note: String => Unit): Cluster =

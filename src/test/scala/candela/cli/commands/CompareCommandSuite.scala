@@ -2,7 +2,7 @@ package candela.cli.commands
 
 import candela.cli.Captured
 import candela.cli.options.Limit
-import candela.image.{Image, ImageFiles}
+import candela.image.{Image, ImageFiles, ImageWindow, WriteOptions}
 import candela.testing.FlatImages.flat
 import candela.testing.TempFolder
 
@@ -133,6 +133,20 @@ class CompareCommandSuite extends AnyFunSuite:
         "--channels",
         "Z"
       )._2.err.contains("the image has no channel Z; known: R, G, B"))
+
+  test("a crop and the whole image are told, with the words that cut it"):
+    TempFolder.use: folder =>
+      def file(name: String) = folder.resolve(name).toString
+      ImageFiles.write(folder.resolve("a.exr"), Image.rgb(8, 6))
+      val words = Vector("image", file("a.exr"), "--crop", "2,6,1,4", "-o", file("b.exr"))
+      assert(Captured.run(words*)._1 == 0)
+      val window = WriteOptions(window = Some(ImageWindow(2, 1, 8, 6)))
+      ImageFiles.write(folder.resolve("c.exr"), Image.rgb(4, 3), options = window)
+      for pair <- Vector(Vector("a.exr", "c.exr"), Vector("c.exr", "a.exr")) do
+        val (code, captured) = Captured.run(("compare" +: pair.map(file))*)
+        val cure = s"`candela image ${file("a.exr")} --crop 2,6,1,4`"
+        assert(code == 1 && captured.err.contains(cure), captured.err)
+      assert(Captured.run("compare", file("b.exr"), file("c.exr"))._1 == 0)
 
   test("difference and heat map show where the pictures differ"):
     TempFolder.use: folder =>

@@ -36,6 +36,16 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(Files.readString(out).contains("Film \"rgb\""))
       assert(TempFolder.names(folder) == Set("a.pbrt", "b.pbrt"))
 
+  test("the last line counts the warnings of reading, too"):
+    TempFolder.use: folder =>
+      val sensors = "<sensor type=\"perspective\"/>" * 2
+      val text = s"<scene version=\"3.0.0\">$sensors</scene>"
+      val file = Files.writeString(folder.resolve("a.xml"), text).toString
+      val (code, captured) = run(file, "--outfile", folder.resolve("b.pbrt").toString)
+      val warnings = captured.err.linesIterator.count(_.contains(": warning: "))
+      assert(code == 0 && warnings > 0 && captured.err.contains("--sensor"), captured.err)
+      assert(captured.out.contains(s", $warnings warning"), captured.out + captured.err)
+
   test("a name of another format is an error before anything is written"):
     TempFolder.use: folder =>
       val out = folder.resolve("b.xml")

@@ -262,6 +262,12 @@ class ImageCommandSuite extends AnyFunSuite:
       assert(lines.contains(Vector("scene", "küche")))
       assert(lines.contains(Vector("Y", "1.000", "3.000", "2.000", "0", "0")))
       assert(lines.contains(Vector("z", "-", "-", "-", "1", "1")))
+      def precision(name: String, words: String*) =
+        val copy = folder.resolve(name).toString
+        assert(run((Vector("image", "scenes/textures/chart.png", "-o", copy) ++ words)*)._1 == 0)
+        run("info", copy)._2.out.linesIterator.find(_.startsWith("channels")).get
+      assert(precision("half.exr", "--half").endsWith(", half, linear"))
+      assert(precision("deep.png", "--bits", "16").endsWith(", 16 bits, srgb"))
       val (both, pair) = run("info", file.toString, "scenes/textures/chart.png")
       assert(both == 0 && pair.out.contains("scenes/textures/chart.png\nsize"))
       assert(pair.out.contains("8 bits, srgb"))
