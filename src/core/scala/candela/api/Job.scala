@@ -116,7 +116,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       Option.when(control.estimates || target.isGiven)(ErrorRecorder(plan.development, None))
     val earlier = keeper.flatMap(k => k.savedError(k.samplesDone))
     val goal = recorder.filter(_ => target.isGiven)
-      .map(GoalRule(target, plan.samplesPerPixel, _, earlier = earlier))
+      .map(GoalRule(target, plan.samplesPerPixel, _, earlier = earlier, isLimited = plan.isLimited))
     val estimating = recorder.filter(_ => goal.isEmpty)
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
     val checkpoints = keeper.map(_.checkpointer(n => recorder.flatMap(_.relativeMse(n))))

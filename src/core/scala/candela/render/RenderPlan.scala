@@ -107,6 +107,9 @@ final case class RenderPlan(
   /** Samples per pixel to take. */
   val samplesPerPixel: Int = samples.getOrElse(sampler.samplesPerPixel)
 
+  /** Whether a limit sets the samples per pixel. */
+  def isLimited: Boolean = samplesPerPixel == maxSamples
+
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =
     if !sharesSamples then crop

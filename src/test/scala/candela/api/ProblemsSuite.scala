@@ -111,6 +111,10 @@ class ProblemsSuite extends AnyFunSuite:
       val settings = RenderSettings().withError(error).withSamples(4)
       val told = Using.resource(scene.prepare(settings, 2))(_.render(2).problems)
       assert(told.stream.map(_.number).toList == java.util.List.of(expected*), told)
+    val limited = ReadSettings().withLimit("samples", "8")
+    val parsed = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), limited)
+    val ended = Using.resource(parsed.prepare(RenderSettings().withError(1e-6), 2))(_.render(2))
+    assert(ended.samplesPerPixel == 8 && ended.problems.get(0).help.get.contains("--limit"))
 
   test("a missing argument is named"):
     def named(body: => Any) = intercept[NullPointerException](body).getMessage

@@ -43,8 +43,7 @@ private[cli] final class SceneRun(
       // A reference tells another error than the saved one, which is estimated
       val earlier = keeping.filter(_ => options.reference.isEmpty)
         .flatMap(k => k.savedError(k.samplesDone))
-      val isLimited = plan.samplesPerPixel == plan.maxSamples
-      GoalRule(settings.goal, plan.samplesPerPixel, recorder, isPreview, earlier, isLimited)
+      GoalRule(settings.goal, plan.samplesPerPixel, recorder, isPreview, earlier, plan.isLimited)
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
