@@ -24,6 +24,7 @@ os.environ["BLENDER_USER_RESOURCES"] = _HOME.name
 
 try:
     import bpy
+    import bmesh
     import numpy as np
     from mathutils import Vector
 except ImportError as missing:
@@ -547,6 +548,71 @@ def hidden(made):
     outer.hide_render = True
 
 
+def grown(made):
+    """Boxes on the ball, of geometry that no object has."""
+    tree = bpy.data.node_groups.new("Grow", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    box, paint, scatter = (
+        tree.nodes.new(f"GeometryNode{name}")
+        for name in ("MeshCube", "SetMaterial", "InstanceOnPoints")
+    )
+    box.inputs["Size"].default_value = (0.1, 0.1, 0.3)
+    paint.inputs["Material"].default_value = material("Box", (0.8, 0.2, 0.2))
+    tree.links.new(box.outputs[0], paint.inputs["Geometry"])
+    tree.links.new(start.outputs[0], scatter.inputs["Points"])
+    tree.links.new(paint.outputs[0], scatter.inputs["Instance"])
+    tree.links.new(scatter.outputs[0], end.inputs[0])
+    made.ball.modifiers.new("Grow", "NODES").node_group = tree
+
+
+def edited(made):
+    """The ball, moved in edit mode."""
+    bpy.context.view_layer.objects.active = made.ball
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bmesh.from_edit_mesh(made.ball.data)
+    bmesh.ops.translate(mesh, verts=mesh.verts, vec=(1, 0, 0))
+    bmesh.update_edit_mesh(made.ball.data)
+
+
+def animated(made):
+    """The ball's color is red at the frame that is rendered alone."""
+    tree = made.ball.data.materials[0].node_tree
+    socket = tree.nodes["Principled BSDF"].inputs["Base Color"]
+    for frame, color in ((1, (0.1, 0.1, 0.8, 1)), (5, (0.8, 0.1, 0.1, 1))):
+        socket.default_value = color
+        socket.keyframe_insert("default_value", frame=frame)
+    made.scene.frame_set(1)
+    made.scene.frame_current = 5
+
+
+def mapped_thrice(made):
+    """The floor's image by the last of three UV maps."""
+    papered(made)
+    mesh = made.floor.data
+    for name in ("second", "third"):
+        mesh.uv_layers.new(name=name)
+    for corner in mesh.uv_layers["third"].data:
+        corner.uv = 4 * corner.uv
+    tree = mesh.materials[0].node_tree
+    node = tree.nodes.new("ShaderNodeUVMap")
+    node.uv_map = "third"
+    texture = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+    tree.links.new(node.outputs[0], texture.inputs["Vector"])
+
+
+def sheared_camera(made):
+    parent = made.put("Parent", None, (0, 0, 0))
+    parent.rotation_euler, parent.scale = (0, 0, 0), (2, 1, 1)
+    made.scene.camera.parent = parent
+    made.scene.camera.rotation_euler = (1.2, 0.5, 0.2)
+
+
+def without_sky(made):
+    bpy.context.view_layer.use_sky = False
+
+
 def mirrored(made):
     glowing(made)
     made.scene.camera.scale = (-2, 2, 2)
@@ -620,6 +686,12 @@ SCENES = {
     "sheared": lambda: changed(lit(), sheared),
     "excluded collection": lambda: changed(lit(), excluded),
     "hidden collection": lambda: changed(lit(), hidden),
+    "geometry of nodes, instanced": lambda: changed(lit(), grown),
+    "edit mode": lambda: changed(lit(), edited),
+    "animated material": lambda: changed(lit(), animated),
+    "three UV maps": lambda: changed(lit(), mapped_thrice),
+    "sheared camera": lambda: changed(lit(), sheared_camera),
+    "no sky": lambda: changed(lit(), without_sky),
     "mirrored camera": lambda: changed(lit(), mirrored),
     "overrides": lambda: changed(lit(), overridden),
     "portal": lambda: changed(lit(), with_portal),
@@ -917,6 +989,32 @@ class Exporting(unittest.TestCase):
             image.source, image.filepath = "FILE", "//no such file.png"
             image.reload()
 
+        def cubic(made, tree, shader):
+            papered(made)
+            next(n for n in tree.nodes if n.type == "TEX_IMAGE").interpolation = "Cubic"
+
+        def sequence(made, tree, shader):
+            papered(made)
+            image = next(n for n in tree.nodes if n.type == "TEX_IMAGE").image
+            image.filepath_raw = os.path.join(_HOME.name, "wood1.png")
+            image.file_format = "PNG"
+            image.save()
+            image.source, image.alpha_mode = "SEQUENCE", "CHANNEL_PACKED"
+
+        def within_world(made, tree, shader):
+            linked("NormalMap", "Normal", space="WORLD")(made, tree, shader)
+
+        def of_object(made, tree, shader):
+            linked("Attribute", "Base Color", attribute_type="OBJECT")(made, tree, shader)
+
+        def grouped(made, tree, shader):
+            group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+            group.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+            color, end = group.nodes.new("ShaderNodeRGB"), group.nodes.new("NodeGroupOutput")
+            color.outputs[0].keyframe_insert("default_value", frame=1)
+            group.links.new(color.outputs[0], end.inputs[0])
+            linked("Group", "Base Color", node_tree=group)(made, tree, shader)
+
         unread = "glTF has no node {}; rendered without".format
         lost = "{} of node 'Principled BSDF' is not supported".format
         is_muted = "{} is muted, but used".format
@@ -931,6 +1029,11 @@ class Exporting(unittest.TestCase):
             (muted, is_muted("node 'Image Texture'")),
             (muted_link, is_muted("a link to node 'Principled BSDF'")),
             (lambda made, *_: without_image(made), "node 'Image Texture': it has no image"),
+            (cubic, "the interpolation of node 'Image Texture' is linear, not Cubic"),
+            (sequence, "image 'wood' is not supported as a sequence"),
+            (within_world, unread("'Normal Map'")),
+            (of_object, unread("'Attribute'")),
+            (grouped, "the animation within group 'Group' is not supported"),
             (lost_file, "node 'Image Texture': image 'wood' can't be read"),
             (set_input("Diffuse Roughness", 0.5), lost("Diffuse Roughness")),
             (set_input("Subsurface Weight", 0.5), lost("Subsurface Weight")),
@@ -1016,14 +1119,52 @@ class Exporting(unittest.TestCase):
                     self.assertEqual(len(texts), 1, texts)
                     self.assertTrue(texts[0].startswith(f"{name}: not supported: "), texts)
 
-    def test_spots_that_are_scaled_unevenly_are_named(self):
+    def test_lights_that_differ_are_named(self):
         made = Scene()
-        spot = made.light("SPOT")
-        spot.scale = (2, 2, 2)
-        self.assertEqual(made.export()[1], [])
-        spot.scale = (1, 1, 2)
-        text = "the scale of light 'SPOT' is ignored: its cone is round"
+        lamp = made.light("SPOT")
+        parent = made.put("Parent", None, (0, 0, 0))
+        parent.rotation_euler = (0, 0, 0)
+        for kind, scale, above, energy, text in (
+            ("SPOT", (2, 2, 2), (1, 1, 1), 1, None),
+            ("SPOT", (1, 1, 2), (1, 1, 1), 1, "scale of light {} is ignored: its cone is round"),
+            ("AREA", (1, 1, 2), (1, 1, 1), 1, None),
+            ("AREA", (1, 1, 1), (2, 1, 1), 1, "shape of light {} is not sheared as in Cycles"),
+            ("SUN", (1, 1, 2), (2, 1, 1), 1, None),
+            ("SUN", (1, 1, 1), (1, 1, 1), -1, "negative power of light {} is not supported"),
+        ):
+            lamp.data = bpy.data.lights.new(kind.title(), kind)
+            lamp.data.energy, lamp.scale, parent.scale, lamp.parent = energy, scale, above, parent
+            texts = [f"the {text}".format(f"'{lamp.data.name}'")] if text else []
+            with self.subTest(texts):
+                self.assertEqual(made.export()[1], texts)
+
+    def test_hair_is_named_also_if_its_object_is_hidden(self):
+        made = lit()
+        made.ball.modifiers.new("Hair", "PARTICLE_SYSTEM")
+        hair = made.ball.particle_systems[0].settings
+        hair.type, made.ball.show_instancer_for_render = "HAIR", False
+        text = "the hair of object 'Sphere' is not supported; left out"
         self.assertEqual(made.export()[1], [text])
+        hair.render_type, hair.instance_object = "OBJECT", made.floor
+        self.assertEqual(made.export()[1], [])
+
+    def test_what_materials_miss_in_a_mesh_is_named(self):
+        def texts(kind, **fields):
+            made = lit()
+            tree = made.ball.data.materials[0].node_tree
+            made.ball.data.attributes.new("by face", "FLOAT_COLOR", "FACE")
+            node = tree.nodes.new(f"ShaderNode{kind}")
+            for name, value in fields.items():
+                setattr(node, name, value)
+            tree.links.new(node.outputs[0], tree.nodes["Principled BSDF"].inputs["Base Color"])
+            return made.export()[1]
+
+        misses = "mesh 'Sphere' has no {}, which material 'Sphere' reads".format
+        self.assertEqual(texts("VertexColor", layer_name="some"), [misses("color 'some'")])
+        self.assertEqual(texts("Attribute", attribute_name="some"), [misses("color 'some'")])
+        self.assertEqual(texts("Attribute", attribute_name="by face"), [misses("color 'by face'")])
+        self.assertEqual(texts("UVMap", uv_map="some"), [misses("UV map 'some'")])
+        self.assertEqual(texts("UVMap", uv_map="UVMap"), [])
 
     def test_of_several_colors_that_of_the_material_is_written(self):
         made = lit()

@@ -20,8 +20,8 @@ class ExportError(Exception):
 class _Export:
     """The export in progress: what the hooks below need."""
 
-    def __init__(self, names, warn):
-        self.names, self.warn = names, warn
+    def __init__(self, found, warn):
+        self.names, self.materials, self.warn = found.names, found.materials, warn
         self.unassigned = None  # the material of what has none
         self.failure = None  # the exporter only logs exceptions of hooks
 
@@ -51,11 +51,13 @@ def _add_to_material(gltf_material, blender_material):
     gltf_material.double_sided = True  # Cycles culls no faces
     if blender_material is None:
         return
-    surfaces.mend(gltf_material, blender_material)
-    medium = media.of(blender_material, (), _current.warn)
+    material = _current.materials[blender_material.name]
+    gltf_material.name = material.name
+    surfaces.mend(gltf_material, material)
+    medium = media.of(material, (), _current.warn)
     if medium is not None:
         emission = {"emission": list(medium.emission)} if any(medium.emission) else {}
-        surface = {} if media.is_surface(blender_material) else {"surface": False}
+        surface = {} if media.is_surface(material) else {"surface": False}
         gltf_material.extras = _extras("medium", {**medium.fields(), **emission, **surface})
 
 
@@ -88,6 +90,8 @@ def write(scene, view_layer, depsgraph, folder: Path, warn) -> Path:
     materials.check(depsgraph, override, warn)
     path, bare = folder / FILE, folder / "meshes.glb"
     with geometry.meshes(depsgraph, override) as found:
+        for each in found.scene.objects:
+            materials.check_attributes(each.data, found.names[each.data.name], warn)
         _export(found, bare, warn)
         root, rest = _opened(bare)
         _place(root, found.places)
@@ -104,7 +108,7 @@ def write(scene, view_layer, depsgraph, folder: Path, warn) -> Path:
 def _export(found, path: Path, warn):
     """Writes the meshes and their materials."""
     global _current
-    _current = _Export(found.names, warn)
+    _current = _Export(found, warn)
     place = {"scene": found.scene, "view_layer": found.scene.view_layers[0]}
     if bpy.context.window is None:
         place["window"] = bpy.context.window_manager.windows[0]

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 import bpy
 from mathutils import Matrix
 
+from .nodes import of_surface, tree_of
+
 # From z up to y up
 UPRIGHT = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 
@@ -33,45 +35,87 @@ class Meshes:
 
     :ivar scene: of an object for each
     :ivar names: by the names of their copies
+    :ivar materials: as they are evaluated, by the names of those that the meshes have
     :ivar places: the object's name, the instance's name and its matrix in glTF
     """
 
     def __init__(self, depsgraph, override):
         self.scene = bpy.data.scenes.new("Candela")
         self.names, self.places, self._objects = {}, [], {}
+        self.materials, self._copies = {}, {}
         self._depsgraph, self._override = depsgraph, override
 
     def collect(self):
         for instance in rendered(self._depsgraph):
             # Evaluated curves, texts and metaballs are meshes here, too
             if instance.object.type == "MESH":
-                name = self._object(instance.object)
+                name = self._object(instance)
                 matrix = UPRIGHT @ instance.matrix_world @ UPRIGHT.inverted()
                 self.places.append((name, instance.object.name, numbers(matrix)))
 
-    def _object(self, source):
+    def _object(self, instance):
+        source = instance.object
         materials = slots(source, self._override) or [self._override]
         key = (source.data.as_pointer(), *(m and m.as_pointer() for m in materials))
         if key not in self._objects:
-            mesh = bpy.data.meshes.new_from_object(
-                source, preserve_all_data_layers=True, depsgraph=self._depsgraph
-            )
+            mesh = self._copy(source, instance.instance_object or source)
             for k, material in enumerate(materials):
-                material = material and material.original
+                material = material and self._material(material)
                 if k < len(mesh.materials):
                     mesh.materials[k] = material
                 else:
                     mesh.materials.append(material)
+            _drop_maps(mesh, materials)
             self.names[mesh.name] = source.data.name
             made = bpy.data.objects.new("Candela", mesh)
             self.scene.collection.objects.link(made)
             self._objects[key] = made.name
         return self._objects[key]
 
+    def _copy(self, source, instanced):
+        if source.data != instanced.data:
+            # A geometry of nodes, or the surface of a curve
+            return source.data.copy()
+        return bpy.data.meshes.new_from_object(instanced)
+
+    def _material(self, evaluated):
+        """The original, or a copy with the values of this time."""
+        original = evaluated.original
+        tree = tree_of(original)
+        if tree is not None and tree.animation_data is not None:
+            if original.name not in self._copies:
+                self._copies[original.name] = _still(original, evaluated)
+            original = self._copies[original.name]
+        self.materials[original.name] = evaluated
+        return original
+
     def remove(self):
         bpy.data.batch_remove([each.data for each in self.scene.objects])
         bpy.data.batch_remove(list(self.scene.objects))
         bpy.data.scenes.remove(self.scene)
+        bpy.data.batch_remove(list(self._copies.values()))
+
+
+def _still(original, evaluated):
+    """A copy of a material with the evaluated values of its nodes."""
+    made = original.copy()
+    made.node_tree.animation_data_clear()
+    for node, source in zip(made.node_tree.nodes, evaluated.node_tree.nodes, strict=True):
+        sockets = zip((*node.inputs, *node.outputs), (*source.inputs, *source.outputs), strict=True)
+        for socket, animated in sockets:
+            if hasattr(socket, "default_value"):
+                socket.default_value = animated.default_value
+    return made
+
+
+def _drop_maps(mesh, materials):
+    """Leaves the UV maps that the materials name, and that of images that name none."""
+    used = {each.name for each in mesh.uv_layers if each.active_render}
+    for material in materials:
+        for node in of_surface(material) if material is not None else ():
+            used |= {getattr(node, "uv_map", ""), getattr(node, "attribute_name", "")}
+    for name in [each.name for each in mesh.uv_layers if each.name not in used]:
+        mesh.uv_layers.remove(mesh.uv_layers[name])
 
 
 @contextmanager

@@ -21,6 +21,9 @@ def fields(lamp, matrix, warn):
     if getattr(getattr(light, "cycles", None), "is_portal", False):
         return None, None
     watts = _watts(light, matrix, warn)
+    if min(watts) < 0:
+        warn(f"the negative power of light '{light.name}' is not supported")
+        return None, None
     if light.type == "AREA":
         described, more = None, _area(light, watts, matrix, warn)
     else:
@@ -89,6 +92,8 @@ def _area(light, watts, matrix, warn):
     if surface <= 0:
         warn(f"light '{light.name}' has no area; left out")
         return None
+    if not matrix.to_3x3().is_orthogonal_axis_vectors:
+        warn(f"the shape of light '{light.name}' is not sheared as in Cycles")
     return {
         "shape": "ellipse" if is_round else "rectangle",
         "size": [width, height],

@@ -4,7 +4,7 @@ import numpy as np
 
 from . import surfaces
 from .geometry import rendered, slots
-from .nodes import linked, muted, output_of, source, tree_of, unlinked, upstream
+from .nodes import linked, muted, of_surface, output_of, source, tree_of, unlinked, upstream
 
 # Those that the exporter reads
 _NODES = {
@@ -17,6 +17,7 @@ _INPUTS = {"Diffuse Roughness": 0, "Subsurface Weight": 0, "Thin Film Thickness"
 _COAT_INPUTS = {"Coat IOR": 1.5, "Coat Tint": (1, 1, 1, 1)}
 _CLIPS = ("ROUND", "SUBTRACT", "LESS_THAN", "GREATER_THAN")  # of alpha
 _FACTORS = ("RGB", "VALUE", "ATTRIBUTE", "VERTEX_COLOR")
+_CHANGING = ("SEQUENCE", "MOVIE", "TILED")
 _DEPTHS_WITH_ALPHA = (32, 64, 128)  # bits of a pixel
 
 
@@ -30,7 +31,30 @@ def check(depsgraph, override, warn):
         for material in slots(instance.object, override):
             if material is not None and material.original not in checked:
                 checked.add(material.original)
-                _check_material(material.original, warn)
+                _check_material(material, warn)
+
+
+def check_attributes(mesh, name, warn):
+    """Names what materials read of a mesh, and it lacks.
+
+    :param mesh: a copy of the one of that name
+    """
+    maps, colors = set(mesh.uv_layers.keys()), set(mesh.color_attributes.keys())
+    for material in {each for each in mesh.materials if each is not None}:
+        for node in of_surface(material):
+            if node.type in ("UVMAP", "NORMAL_MAP"):
+                wanted, kind, known = node.uv_map, "UV map", maps
+            elif node.type == "TEX_IMAGE" and source(node.inputs["Vector"]) is None and not maps:
+                wanted, kind, known = "UVMap", "UV map", maps
+            elif node.type == "VERTEX_COLOR":
+                wanted, kind, known = node.layer_name, "color", colors
+            elif node.type == "ATTRIBUTE" and node.attribute_type == "GEOMETRY":
+                wanted, kind, known = node.attribute_name, "color", colors | maps
+            else:
+                continue
+            if wanted and wanted not in known:
+                reader = f"material '{material.name}'"
+                warn(f"mesh '{name}' has no {kind} '{wanted}', which {reader} reads")
 
 
 def _check_material(material, warn):
@@ -58,9 +82,11 @@ def _check_material(material, warn):
         if node.type == "BSDF_TRANSPARENT" and unlinked(node.inputs[0])[:3] != (1, 1, 1):
             tell(f"the color of node '{node.name}' is not supported; white is used")
     for node in nodes:
-        if surfaces.is_missing(node):
-            what = f"image '{node.image.name}' can't be read" if node.image else "it has no image"
-            tell(f"node '{node.name}': {what}")
+        if node.type == "GROUP" and node.node_tree.animation_data is not None:
+            tell(f"the animation within group '{node.node_tree.name}' is not supported")
+        if node.type == "TEX_IMAGE":
+            for text in _lost_image(node):
+                tell(text)
         for name in _lost_inputs(node) if node.type == "BSDF_PRINCIPLED" else ():
             tell(f"{name} of node '{node.name}' is not supported")
     for name, change in sorted({*_other_alphas(nodes), *_other_spaces(nodes)}):
@@ -95,14 +121,29 @@ def _is_read(node, name):
         return node.vector_type != "NORMAL" and turns is not None and turns[:2] == (0, 0)
     if node.type == "TEX_IMAGE":
         return node.projection == "FLAT" and node.extension != "CLIP"
+    if node.type == "NORMAL_MAP":
+        return node.space == "TANGENT"
     if node.type in ("ATTRIBUTE", "VERTEX_COLOR"):
-        return name in ("Base Color", "Alpha")
+        is_global = getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY"
+        return name in ("Base Color", "Alpha") and not is_global
     return True
 
 
 def _has_factor(sockets):
     nodes = [source(socket) for socket in sockets]
     return any(node is None or node.type in _FACTORS for node in nodes)
+
+
+def _lost_image(node):
+    """What differs of an image."""
+    image = node.image
+    if image is not None and image.source in _CHANGING:
+        yield f"image '{image.name}' is not supported as a {image.source.lower()}"
+    elif surfaces.is_missing(node):
+        what = f"image '{image.name}' can't be read" if image else "it has no image"
+        yield f"node '{node.name}': {what}"
+    if node.interpolation not in ("Linear", "Closest"):
+        yield f"the interpolation of node '{node.name}' is linear, not {node.interpolation}"
 
 
 def _lost_inputs(node):

@@ -85,6 +85,13 @@ def group_output(node):
     return output_of(node.node_tree, "GROUP_OUTPUT") if is_group else None
 
 
+def of_surface(material):
+    """The nodes that the surface of a material depends on."""
+    tree = tree_of(material)
+    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    return upstream(linked(output, "Surface")) if output else ()
+
+
 def upstream(node):
     """A node and all that it depends on, each once, also within groups."""
     seen, waiting = set(), [node]

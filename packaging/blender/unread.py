@@ -1,7 +1,5 @@
 """What changes Cycles' picture and has no effect here: it is named."""
 
-from .geometry import rendered
-
 
 class _From:
     """Numbers from this one on, or 0 if that means no limit."""
@@ -40,7 +38,7 @@ _SIMPLIFIED = {
     "cycles.use_distance_cull": False,
     "cycles.texture_limit_render": "OFF",
 }
-_LAYER = {"use_solid": True, "use_sky": True, "use_volumes": True}
+_LAYER = {"use_solid": True, "use_volumes": True}
 _COLLECTION = {"holdout": False, "indirect_only": False}
 _WORLD = {
     "cycles.max_bounces": _From(16),
@@ -89,7 +87,11 @@ def check(scene, view_layer, world, depsgraph, warn):
     if world is not None:
         _check("world", world, _WORLD, warn)
     seen = set()
-    for instance in rendered(depsgraph):
+    for instance in depsgraph.object_instances:
+        if instance.show_particles:
+            _check_hair(instance.object, seen, warn)
+        if not instance.show_self:
+            continue
         for each in (instance.object, instance.parent if instance.is_instance else None):
             key = each and (each.original, each.type)
             if key and key not in seen:
@@ -104,12 +106,19 @@ def _collections(top):
             yield from _collections(layer)
 
 
+def _check_hair(each, seen, warn):
+    key = (each.original, "HAIR")
+    systems = [m.particle_system for m in each.modifiers if m.type == "PARTICLE_SYSTEM"]
+    kinds = [(system.settings.type, system.settings.render_type) for system in systems]
+    if key not in seen and ("HAIR", "PATH") in kinds:
+        seen.add(key)
+        warn(f"the hair of object '{each.original.name}' is not supported; left out")
+
+
 def _check_object(each, warn):
     name, kind = each.original.name, each.type
     if kind not in _READ | _INVISIBLE | _BARE:
         warn(f"object '{name}' ({kind.lower().replace('_', ' ')}) is not supported; left out")
-    if any(system.settings.type == "HAIR" for system in each.original.particle_systems):
-        warn(f"the hair of object '{name}' is not supported; left out")
     for modifier in each.original.modifiers:
         if modifier.type == "FLUID" and modifier.fluid_type == "DOMAIN":
             warn(f"the fluid of object '{name}' is not supported; left out")

@@ -21,6 +21,8 @@ _MIDDLE = Matrix(((0, 0, -1), (-1, 0, 0), (0, 1, 0)))
 
 def of(scene, view_layer):
     """The world that is rendered, or None."""
+    if not view_layer.use_sky:
+        return None
     return getattr(view_layer, "world_override", None) or scene.world
 
 

@@ -212,17 +212,19 @@ class GltfFormatSuite extends AnyFunSuite, GltfModels:
     val fov = Math.toRadians(scene.camera.get.param("fov").get.floats.head)
     assert(Math.abs(Math.tan(fov / 2) - Math.tan(0.5) * 0.5) < 1e-6)
 
-  test("a mirrored camera mirrors the image, and looks where its -z points"):
+  test("a camera's axes are those of its node, also mirrored and sheared, without scale"):
     val cameras = """,
       "cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":1,"znear":0.1}}]"""
-    def seen(scale: String) =
-      val nodes = s"""{"mesh":0},{"camera":0,"scale":$scale}"""
+    def seen(matrix: String) =
+      val nodes = s"""{"mesh":0},{"camera":0,"matrix":$matrix}"""
       val scene = read(model(""","mode":5""", nodes = nodes, roots = "0,1", others = cameras))
       scene.worldToCamera.start.point(Vec3(1f, 2f, 3f))
-    assert(seen("[2,2,2]") == Vec3(1f, 2f, -3f))
-    assert(seen("[-1,1,1]") == Vec3(-1f, 2f, -3f))
-    assert(seen("[1,-1,1]") == Vec3(1f, -2f, -3f))
-    assert(seen("[1,1,-1]") == Vec3(1f, 2f, 3f))
+    assert(seen("[2,0,0,0,0,2,0,0,0,0,2,0,0,0,0,1]") == Vec3(1f, 2f, -3f))
+    assert(seen("[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]") == Vec3(-1f, 2f, -3f))
+    assert(seen("[1,0,0,0,0,-1,0,0,0,0,1,0,0,0,0,1]") == Vec3(1f, -2f, -3f))
+    assert(seen("[1,0,0,0,0,1,0,0,0,0,-1,0,0,0,0,1]") == Vec3(1f, 2f, 3f))
+    // The unit of y leads to (0.6, 0.8, 0)
+    assert((seen("[1,0,0,0,3,4,0,0,0,0,1,0,0,0,0,1]") - Vec3(-0.5f, 2.5f, -3f)).length < 1e-6)
 
   test("a model that is wrong is an error with a JSON pointer"):
     def replaced(from: String, to: String) = error(model(""","mode":5""").replace(from, to))

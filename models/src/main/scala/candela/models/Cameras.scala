@@ -116,9 +116,9 @@ private[models] object View:
       at: SourcePos
   ): SceneDescription =
     val (width, height) = size(aspect)
-    // pbrt's z points forward; a mirrored node mirrors the image
-    val axes = Transform.scale(if toWorld.swapsHandedness then -1 else 1, 1, -1).get
-    val toCamera = (Nodes.rigid(toWorld) * axes).inverse
+    // pbrt's z points forward
+    val axes = Transform.scale(1, 1, -1).get
+    val toCamera = (Nodes.unscaled(toWorld) * axes).inverse
     def declare(category: String, name: String, params: Param*): Declaration =
       session.declare(category, name, at, params)
     val integrator = if scene.media.isEmpty then "path" else "volpath"

@@ -104,22 +104,30 @@ private[models] object Nodes:
     )
     Transform.fromRows(rows).getOrElse(Transform.flat(rows))
 
-  /** Without scale and shear: how cameras and lights are placed. */
+  /** Without scale, but sheared and mirrored as before: how cameras are placed. */
+  def unscaled(t: Transform): Transform =
+    withAxes(t, Vector(0, 1, 2).map(c => unit(column(t, c))))
+
+  /** Without scale and shear: how lights are placed. */
   def rigid(t: Transform): Transform =
-    def column(c: Int) = Vector(t.m(c), t.m(4 + c), t.m(8 + c))
-    def unit(v: Vector[Double]) =
-      val length = Math.sqrt(v.map(x => x * x).sum)
-      if length > 0 then v.map(_ / length) else v
     def cross(a: Vector[Double], b: Vector[Double]) = Vector(
       a(1) * b(2) - a(2) * b(1),
       a(2) * b(0) - a(0) * b(2),
       a(0) * b(1) - a(1) * b(0)
     )
-    val z = unit(column(2))
-    val x = unit(cross(column(1), z))
-    val y = cross(z, x)
+    val z = unit(column(t, 2))
+    val x = unit(cross(column(t, 1), z))
+    withAxes(t, Vector(x, cross(z, x), z))
+
+  private def column(t: Transform, c: Int) = Vector(t.m(c), t.m(4 + c), t.m(8 + c))
+
+  private def unit(v: Vector[Double]) =
+    val length = Math.sqrt(v.map(x => x * x).sum)
+    if length > 0 then v.map(_ / length) else v
+
+  private def withAxes(t: Transform, axes: Vector[Vector[Double]]): Transform =
     val rows = Vector.tabulate(16): i =>
       val (r, c) = (i / 4, i % 4)
       if r == 3 then (if c == 3 then 1.0 else 0.0)
-      else Vector(x, y, z).map(_(r)).appended(t.m(4 * r + 3))(c)
+      else axes.map(_(r)).appended(t.m(4 * r + 3))(c)
     Transform.fromRows(rows).getOrElse(Transform.translate(t.m(3), t.m(7), t.m(11)))
