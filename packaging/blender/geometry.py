@@ -90,10 +90,9 @@ class Meshes:
         return original
 
     def remove(self):
-        bpy.data.batch_remove([each.data for each in self.scene.objects])
-        bpy.data.batch_remove(list(self.scene.objects))
-        bpy.data.scenes.remove(self.scene)
-        bpy.data.batch_remove(list(self._copies.values()))
+        objects = list(self.scene.objects)
+        data = [each.data for each in objects]
+        bpy.data.batch_remove([*objects, *data, *self._copies.values(), self.scene])
 
 
 def _still(original, evaluated):
