@@ -529,6 +529,50 @@ class InMemory(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "faces must be n × 3 integers, found none"):
             candela.mesh(vertices, faces)
 
+    def test_sets_of_numbers_have_no_order(self):
+        scene = candela.load_dict(mitsuba())
+        with self.assertRaisesRegex(TypeError, "a set have no order: write a list"):
+            scene.parameters()["red.reflectance.value"] = {0.8, 0.2, 0.1}
+        with self.assertRaisesRegex(ValueError, "a translation needs three numbers, found {"):
+            candela.Transform().translate({3, 1, 2})
+        ball = {"type": "scene", "ball": {"type": "sphere", "center": {2, 0, 1}}}
+        with self.assertRaisesRegex(candela.SceneError, "ball.center: error: numbers in a set"):
+            candela.load_dict(ball).render(spp=1)
+        image = candela.render(mitsuba(), spp=1, aov={"albedo", "depth"})
+        self.assertIn("depth", image)
+
+    def test_wrong_transforms_are_value_errors(self):
+        base, up = candela.Transform(), [0, 1, 0]
+        for make, message in (
+            (lambda: base.look_at([0, 0], up, up), "`origin` needs three numbers, found"),
+            (lambda: base.look_at(None, up, up), "`origin` needs three numbers, found None"),
+            (lambda: base.rotate(up, None), "angle of a rotation needs a number, found None"),
+            (lambda: base.rotate(up, float("nan")), "angle of a rotation needs a number, found nan"),
+            (lambda: candela.Transform(np.full((4, 4), np.nan)), "a transform needs numbers"),
+            (lambda: base @ [1, 2], "a point needs three numbers"),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                make()
+
+    def test_a_limit_of_compare_keeps_the_figures(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            files = [os.path.join(folder, name) for name in ("a.exr", "b.exr")]
+            for seed, file in enumerate(files):
+                candela.render(mitsuba(), spp=1, seed=seed).save(file)
+            with self.assertRaises(candela.CandelaError) as caught:
+                candela.run("compare", *files, "--max-mse", 1e-9)
+            self.assertNotIsInstance(caught.exception, candela.SceneError)
+            self.assertIn("RMSE", caught.exception.output)
+
+    def test_images_without_colours_have_no_picture(self):
+        planes = {name: np.zeros((4, 4), "f4") for name in "uv"}
+        image = candela.Image(planes, channels={name: [name] for name in "uv"})
+        self.assertFalse(hasattr(image, "rgb"))
+        self.assertIsNone(image._repr_png_())
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            with self.assertRaisesRegex(candela.SceneError, "the image: no channels R, G"):
+                image.save(os.path.join(folder, "x.png"))
+
     def test_a_command_line_in_one_piece_is_told_how_to_separate_it(self):
         for words in (["compare", "a.exr", "b.exr"], "compare a.exr b.exr", ("compare", "a.exr")):
             with self.assertRaisesRegex(candela.UsageError, r'candela.run\("compare", "a.exr"'):

@@ -9,7 +9,7 @@
 
 Scenes may also be made in Python, changed, and rendered again:
 
->>> scene = candela.load_dict({"type": "scene", "ball": {"type": "sphere"}, ...})
+>>> scene = candela.load_dict({"type": "scene", "ball": {"type": "sphere", "radius": 1}, ...})
 >>> scene.parameters()["ball.radius"] = 2
 >>> scene.render(spp=64)
 

@@ -43,17 +43,27 @@ class CandelaError(Exception):
     """The program failed.
 
     ``problems`` are its errors, and warnings after them; ``file``, ``line`` and ``column`` tell the
-    place of the first, or are ``None``.
+    place of the first, or are ``None``. ``output`` is what ``run`` would have returned.
     """
 
     def __init__(self, message: str, problems: Tuple[Problem, ...] = (), code: int = 1) -> None:
         super().__init__(message)
         self.problems = problems
         self.code = code
+        self.output = ""
         first = problems[0] if problems else None
         self.file = first.file if first else None
         self.line = first.line if first else None
         self.column = first.column if first else None
+
+
+    def renamed(self, old: str, new: str) -> "CandelaError":
+        """The same about a file that has another name for the user."""
+        problems = tuple(
+            replace(p, text=p.text.replace(old, new), message=p.message.replace(old, new))
+            for p in self.problems
+        )
+        return type(self)(str(self).replace(old, new), problems, self.code)
 
 
 class SceneError(CandelaError):
@@ -208,7 +218,7 @@ def error_of(code: int, lines: List[str], problems: List[Problem]) -> CandelaErr
     problems = sorted(problems, key=lambda p: p.severity)
     errors = [p.text for p in problems if p.severity == "error"]
     message = "\n".join(errors) or "\n".join(lines[-20:])
-    kind = {1: SceneError, 2: UsageError}.get(code, InternalError)
+    kind = {1: SceneError if problems else CandelaError, 2: UsageError}.get(code, InternalError)
     if problems and _MISSING.search(f"{problems[0].number} {problems[0].message}"):
         kind = MissingFileError
         first = problems[0]

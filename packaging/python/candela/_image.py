@@ -48,7 +48,9 @@ class Image:
     @property
     def rgb(self) -> Any:
         """Red, green and blue, in float32; of a film in luminance or X, Y and Z, converted."""
-        if "rgb" in self.layers or "Y" not in self.layers or not np:
+        if "rgb" not in self.layers and "Y" not in self.layers:
+            raise AttributeError(f"the image has no colours: its layers are {', '.join(self.layers)}")
+        if "rgb" in self.layers or not np:
             return self["rgb"]
         if "X" in self.layers and "Z" in self.layers:
             xyz = np.dstack([self.layers[name] for name in "XYZ"])
@@ -157,10 +159,15 @@ class Image:
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             source = Path(folder) / "image.exr"
             source.write_bytes(exr(self))
-            warn(execute(["image", str(source), "--outfile", target])[1])
+            try:
+                warn(execute(["image", str(source), "--outfile", target])[1])
+            except CandelaError as e:
+                raise e.renamed(str(source), "the image") from None
 
-    def _repr_png_(self) -> bytes:
-        """The picture that notebooks show."""
+    def _repr_png_(self) -> Optional[bytes]:
+        """The picture that notebooks show, if there are colours."""
+        if not hasattr(self, "rgb"):
+            return None
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             picture = Path(folder) / "image.png"
             self.save(picture)

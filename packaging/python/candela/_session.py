@@ -373,7 +373,9 @@ def run(*words: Any) -> str:
     messages = outputs["err"].splitlines()
     problems = problems_in(messages, in_words=str)
     if child.returncode != 0:
-        raise error_of(child.returncode, messages, problems)
+        error = error_of(child.returncode, messages, problems)
+        error.output = outputs["out"]
+        raise error
     for line in filter(is_note, messages):
         print(line, file=sys.stderr)
     warn(problems)

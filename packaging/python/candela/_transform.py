@@ -33,7 +33,7 @@ class Transform:
         """The transform that follows another one; or a point, as a list of three numbers."""
         a, point = self.matrix, plain(other)
         if isinstance(point, list) and all(isinstance(x, numbers.Real) for x in point):
-            x, y, z = point
+            x, y, z = _three("a point", point)
             return [row[0] * x + row[1] * y + row[2] * z + row[3] for row in a[:3]]
         b = rows(other)
         size = range(4)
@@ -56,6 +56,8 @@ class Transform:
         x, y, z = _three("the axis of a rotation", axis)
         if x == y == z == 0:
             raise ValueError("the axis of a rotation has length 0")
+        if not isinstance(angle, numbers.Real) or not math.isfinite(angle):
+            raise ValueError(f"the angle of a rotation needs a number, found {described(angle)}")
         s, c = math.sin(math.radians(angle)), math.cos(math.radians(angle))
         k = 1 - c
         return self @ Transform(
@@ -71,6 +73,8 @@ class Transform:
         self, origin: Sequence[float], target: Sequence[float], up: Sequence[float]
     ) -> "Transform":
         """Of a camera at ``origin``: its z points to ``target``, and ``up`` is up."""
+        given = {"origin": origin, "target": target, "up": up}
+        origin, target, up = (_three(f"`{name}`", point) for name, point in given.items())
         z = _unit([t - o for t, o in zip(target, origin)], "target equals origin")
         x = _unit(_cross(up, z), "up is parallel to the direction from origin to target")
         y = _cross(z, x)
@@ -116,6 +120,8 @@ def rows(matrix: Any) -> Matrix:
             found = [[float(inner[i, j]) for j in range(size)] for i in range(size)]
     except (TypeError, IndexError) as e:
         raise ValueError(f"not a matrix: {described(matrix)}") from e
+    if not all(math.isfinite(x) for row in found for x in row):
+        raise ValueError(f"a transform needs numbers, found {described(matrix)}")
     sizes = {(len(found), len(row)) for row in found}
     if len(sizes) != 1 or not sizes <= {(4, 4), (3, 4), (3, 3)}:
         expected = "a matrix of 4 × 4, 3 × 4 or 3 × 3"

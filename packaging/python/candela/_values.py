@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import os
 from typing import Any, List
 
@@ -28,13 +29,18 @@ _SHOWN = 16  # values of a list in a message
 
 
 def plain(value: Any) -> Any:
-    """Numbers, texts and lists instead of NumPy's scalars and arrays, tensors and paths."""
+    """Numbers, texts and lists instead of NumPy's scalars and arrays, tensors and paths.
+
+    Raises ``TypeError`` for a set of numbers.
+    """
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, (list, tuple)):
         return [plain(each) for each in value]
+    if isinstance(value, (set, frozenset)) and any(isinstance(x, numbers.Number) for x in value):
+        raise TypeError(f"numbers in a set have no order: write a list instead of {value}")
     return value
 
 

@@ -82,7 +82,11 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     if isinstance(value, ArrayFile):
         return FileElement(value)
     given = value
-    value = {"type": "rgb", "value": value} if _is_color(value) else plain(value)
+    try:
+        value = {"type": "rgb", "value": value} if _is_color(value) else plain(value)
+    except TypeError as e:
+        wrong(str(e))
+        return None
     if isinstance(value, dict):
         return _object(name, value, key, faults)
     if isinstance(value, bool):

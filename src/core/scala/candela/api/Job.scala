@@ -36,7 +36,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   def samplesPerPixel: Int = plan.samplesPerPixel
 
   /** Warnings of reading and building. */
-  def problems: JList[Problem] = Problems.ofCore(prepared.warnings)
+  def problems: JList[Problem] =
+    val options = prepared.description.options.filter(_.name == "msereferenceout")
+    val idle = options.flatMap(p => NamedOptions.idle("mse-reference-out", p.pos))
+    Problems.ofCore(prepared.warnings ++ idle)
 
   /** Describes the scene and its rendering: integrator, lights, triangles, … */
   def features: JMap[String, String] =

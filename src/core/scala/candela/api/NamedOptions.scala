@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.diagnostics.{Code, Suggest}
+import candela.diagnostics.{Code, Problem as CoreProblem, SourcePos, Suggest}
 import candela.settings.{RenderSettings as CoreSettings, SettingsTable}
 
 /** Options of command lines, by their names. */
@@ -11,6 +11,14 @@ private[api] object NamedOptions:
   private val ofProgram =
     val curve = "a RenderListener's `passed` has the image at 1, 2, 4, 8, … samples per pixel"
     Map("mse-reference-image" -> curve, "mse-reference-out" -> curve)
+
+  private def idle(name: String): String =
+    s"setting `$name` is of the program, and does nothing in the library"
+
+  /** A warning of a scene's option without effect here. */
+  def idle(name: String, at: SourcePos): Option[CoreProblem] =
+    ofProgram.get(name).map: help =>
+      CoreProblem.warning(Code.OptionMisfit, at, idle(name), Some(help))
 
   /** What an option changes.
     *
@@ -25,9 +33,7 @@ private[api] object NamedOptions:
       val actual = if value.isDefined then "found one" else "found none"
       val wanted = if setting.takesValue then "a value" else "no value"
       Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
-    for help <- ofProgram.get(name) do
-      val message = s"setting `$name` is of the program, and does nothing in the library"
-      Problems.fail(Code.OptionMisfit, message, Some(help))
+    for help <- ofProgram.get(name) do Problems.fail(Code.OptionMisfit, idle(name), Some(help))
     val text = value.getOrElse("")
     val changed = setting.change(text).getOrElse:
       Problems.fail(

@@ -1,8 +1,6 @@
 package candela.base
 
-import java.util.ServiceLoader
-
-import scala.jdk.CollectionConverters.*
+import java.util.{ServiceConfigurationError, ServiceLoader}
 
 /** What other modules bring. The program knows none: classes that `META-INF/services` names are
   * looked up at run time.
@@ -14,5 +12,13 @@ object Services:
   def installed[A](service: Class[A]): Iterator[A] =
     val loaders =
       Vector(getClass.getClassLoader, Thread.currentThread.getContextClassLoader).distinct
-    loaders.iterator.flatMap(ServiceLoader.load(service, _).iterator.asScala)
-      .distinctBy(_.getClass.getName)
+    loaders.iterator.flatMap(named(service, _)).distinctBy(_.getClass.getName)
+
+  private def named[A](service: Class[A], loader: ClassLoader | Null): Iterator[A] =
+    val services = ServiceLoader.load(service, loader).iterator
+    def next(): Option[Option[A]] =
+      try Option.when(services.hasNext)(Some(services.next()))
+      catch
+        // The thread's loader may have another copy of this program, whose services are others
+        case _: ServiceConfigurationError if loader != getClass.getClassLoader => Some(None)
+    Iterator.unfold(())(_ => next().map(_ -> ())).flatten

@@ -6,8 +6,8 @@ import java.nio.ByteBuffer
 /** OpenEXR images, through tinyexr.
   *
   * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
-  * of a multi-part file, the first part with colour, and beside it the channels of others that have
-  * the same pixels. The pixels are those of the data window,
+  * of a multi-part file, the first part with colour, and beside it the channels of those that have
+  * the same pixels, under the names of their parts. The pixels are those of the data window,
   * whatever the display window is, as in pbrt. What the decoder does not support or decodes wrongly
   * is read by [[OpenExr]], if that is installed: DWA, HTJ2K, B44 with float channels, subsampled
   * channels such as those of luminance and chroma. Rejects deep pixels.
@@ -39,44 +39,58 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
         ))
           .read(file, part, reason)
 
-  /** The first part with colour, else the first. */
-  private def chosen(parts: Vector[ExrPart]): Int =
-    val hasColor = parts.map(p => p.channels.map(_.name).toSet).map: names =>
-      names("Y") || Image.RgbNames.forall(names)
-    Math.max(0, hasColor.indexOf(true))
+  /** Whether it has luminance; X, Y and Z may be a position. */
+  private def isGray(part: ExrPart): Boolean =
+    val names = part.ownNames
+    names.contains("Y") && !names.contains("X")
 
-  /** Which of several parts is read.
+  private def hasRgb(part: ExrPart): Boolean = Image.RgbNames.forall(part.ownNames.contains)
+
+  private def hasColor(part: ExrPart): Boolean = hasRgb(part) || isGray(part)
+
+  /** The first part with red, green and blue, else with luminance, else the first. */
+  private def chosen(parts: Vector[ExrPart]): Int =
+    Vector(parts.indexWhere(hasRgb), parts.indexWhere(isGray)).find(_ >= 0).getOrElse(0)
+
+  /** Which colours of several parts are read, and what is not.
     *
     * @param start of the file
     */
   def remark(start: Array[Byte]): Option[String] =
     try
       val (parts, _) = ExrHeader.ofBeginning(start)
-      Option.when(parts.size > 1):
-        s"the image has ${parts.size} parts, of which part ${chosen(parts) + 1} is read"
+      val part = parts(chosen(parts))
+      val colored = parts.count(hasColor)
+      val rivals = Option.when(colored > 1):
+        s"the colours are those of part `${part.name}`, the first of $colored that have some"
+      val unread =
+        for p <- parts if !p.covers(part)
+        yield s"part `${p.name}` is not read, as it has other pixels than `${part.name}`"
+      Option.when(rivals.nonEmpty || unread.nonEmpty)((rivals.toVector ++ unread).mkString("; "))
     catch case _: ImageError => None // reported by the decoder
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)
     val beside = parts.indices.filter(i => i != chosen && parts(i).covers(part))
-    val sources = (chosen +: beside.toVector).map(i => i -> order(parts(i)).toArray)
-    val names = sources.foldLeft(Vector.empty[String]): (taken, source) =>
-      val p = parts(source._1)
-      val inPart = source._2.toVector.map(p.channels(_).name)
-      taken ++ inPart.map(n => if taken.contains(n) then s"${p.name}.$n" else n)
+    val sources = (chosen +: beside.toVector).map: i =>
+      val names = if parts.size == 1 then part.channels.map(_.name) else parts(i).ownNames
+      val channels = order(names)
+      val apart = i != chosen || parts.size > 1 && !hasColor(part)
+      val prefix = if apart && parts(i).name.nonEmpty then s"${parts(i).name}." else ""
+      (i, channels.toArray, channels.map(c => prefix + names(c)))
+    val names = sources.flatMap(_._3)
     if names.distinct.size < names.size then
       throw ImageError(Code.DamagedImage, "two channels have the same name")
     if part.width.toLong * part.height * names.size > Int.MaxValue - 8 then
       throw ImageError(Code.TooLarge, "its parts are more than fit into memory")
     val data = new Array[Float](part.width * part.height * names.size)
-    ExrDecoder.decode(file, parts, sources, data)
+    ExrDecoder.decode(file, parts, sources.map((i, channels, _) => (i, channels)), data)
     Image(part.width, part.height, names, data, colorSpace = part.colorSpace)
 
-  /** The channels of an image, by their numbers in the file: R, G, B, A, then the others. */
-  private[image] def order(part: ExrPart): Vector[Int] =
-    val inFile = part.channels.map(_.name)
-    val leading = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
-    leading ++ inFile.indices.filterNot(leading.contains)
+  /** The channels by their numbers in the file: R, G, B, A, then the others. */
+  private[image] def order(names: Vector[String]): Vector[Int] =
+    val leading = (Image.RgbNames :+ "A").map(names.indexOf).filter(_ >= 0)
+    leading ++ names.indices.filterNot(leading.contains)
 
   override def keepsTexts: Boolean = true
 

@@ -45,6 +45,9 @@ private[image] final case class ExrPart(
   def precision: String =
     channels.map(c => ExrHeader.Precisions(c.pixelType)).distinct.mkString(" and ")
 
+  /** The channels' names without that of the part, with which writers may begin them. */
+  def ownNames: Vector[String] = channels.map(_.name.stripPrefix(s"$name."))
+
   /** Whether it has the pixels of another part. */
   def covers(part: ExrPart): Boolean =
     (x, y, width, height) == (part.x, part.y, part.width, part.height)

@@ -24,7 +24,7 @@ final class ExrLevels private (
   def colorSpace: ColorSpace = part.colorSpace
 
   /** As of the image. */
-  val channelNames: Vector[String] = Exr.order(part).map(part.channels(_).name)
+  val channelNames: Vector[String] = Exr.order(part.channels.map(_.name)).map(part.channels(_).name)
 
   val tileWidth: Int = tiling.width
   val tileHeight: Int = tiling.height

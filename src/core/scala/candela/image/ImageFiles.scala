@@ -103,6 +103,14 @@ object ImageFiles:
     val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
     Option.when(bytes.startsWith(ExrMark))(ExrHeader.parts(bytes).head)
 
+  /** What is not read of an EXR file of several parts, or could be read otherwise. */
+  def partsRemark(path: Path): Option[String] =
+    // A pipe is read once
+    if !Files.isRegularFile(path) then None
+    else
+      val start = Using.resource(Files.newInputStream(path))(_.readNBytes(HeadBytes))
+      Option.when(start.startsWith(ExrMark))(Exr.remark(start)).flatten.map(r => s"$path: $r")
+
   /** How pbrt-v4 reads the file differently, if it does; or what of it is missing. */
   def remark(file: InputFile): Option[(Code, String)] =
     val suffix = FileName.suffix(file.path)

@@ -33,17 +33,26 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   def run(): Rendering =
     listener.started(live)
     listener.begins(earlierSamples, job.film)
-    // A rendering that a goal ends has millions of waves, which nobody looks through after its end
-    pauses.dropWhile(schedule.firstSample(_) <= earlierSamples).takeWhile(_ => continues)
-      .foreach(renderUntil)
-    keepOn()
-    reportProgress()
+    try
+      // A rendering that a goal ends has millions of waves, which nobody looks through at its end
+      pauses.dropWhile(schedule.firstSample(_) <= earlierSamples).takeWhile(_ => continues)
+        .foreach(renderUntil)
+      keepOn()
+      reportProgress()
+    catch
+      // Of a listener, or an interrupt; a sample that fails may be in the film in part
+      case e: Exception if queue.failure.isEmpty =>
+        save()
+        throw e
+    save()
+    state.settle()
+    result
+
+  private def save(): Unit =
     for c <- checkpointer do
       // A worker's sample without end may be in the film in part
       if queue.isLost then c.discard() else c.save(state)
       c.finish()
-    state.settle()
-    result
 
   /** The waves before which the workers wait for each other. */
   private def pauses: Iterator[Int] = frequency match

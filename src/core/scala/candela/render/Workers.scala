@@ -15,7 +15,8 @@ private[render] object Workers:
   private val MaxLeavingNanos = 250_000_000L
 
   /** Runs each worker in its own thread. An exception in one stops the others (through the queue)
-    * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
+    * and is rethrown here, as is one of `onTick`, or an interrupt, when all have ended. `onTick`
+    * runs about ten times a second in the caller's thread.
     *
     * A stopped rendering does not wait for samples that take long: after a while the workers
     * abandon them, and the queue is lost if some worker does not end even so.
@@ -37,14 +38,19 @@ private[render] object Workers:
       thread
     queue.start(threads.size)
     threads.foreach(_.start())
-    try
-      for thread <- threads do
-        while thread.isAlive && !queue.isStopped do
-          thread.join(Tick)
-          onTick()
-    catch case e: Throwable => queue.fail(e)
+    val thrown =
+      try
+        for thread <- threads do
+          while thread.isAlive && !queue.isStopped do
+            thread.join(Tick)
+            onTick()
+        None
+      catch
+        case e: Throwable =>
+          queue.stop()
+          Some(e)
     end(threads, queue, isMoving)
-    queue.failure.foreach(e => throw e)
+    queue.failure.orElse(thrown).foreach(e => throw e)
 
   private def end(threads: Vector[Thread], queue: TaskQueue, isMoving: () => Boolean): Unit =
     val stopped = System.nanoTime

@@ -78,3 +78,32 @@ class HostsSuite extends AnyFunSuite:
       val formats = candela.base.Services.installed(classOf[candela.job.SceneFormat]).toVector
       assert(formats.map(_.name).contains("glTF"))
     finally thread.setContextClassLoader(own)
+
+  test("an interrupt, or a listener that throws, leaves the film"):
+    TempFolder.use: folder =>
+      val scene = LibraryScenes.built(samples = 64).scene()
+      def atSample4(name: String)(body: => Unit): Int =
+        val film = folder.resolve(name)
+        val listener = new RenderListener:
+          override def wantsPasses: Boolean = true
+          override def passed(pass: Pass): Unit = if pass.samples == 4 then body
+        val control = RenderControl().withThreads(2).withFilm(film)
+        Using.resource(scene.prepare(RenderSettings(), 2)): job =>
+          assertThrows[RuntimeException](job.render(control.withListener(listener)))
+          Thread.interrupted(): Unit
+          job.render(control).earlierSamplesPerPixel
+      assert(atSample4("thrown.film")(throw RuntimeException("enough")) == 4)
+      assert(atSample4("interrupted.film")(Thread.currentThread.interrupt()) >= 4)
+
+  test("services of another copy of the program are none"):
+    val thread = Thread.currentThread
+    val own = thread.getContextClassLoader
+    val paths = System.getProperty("java.class.path").split(java.io.File.pathSeparator)
+    val urls = paths.map(Path.of(_).toUri.toURL)
+    Using.resource(java.net.URLClassLoader(urls, ClassLoader.getPlatformClassLoader)): copy =>
+      thread.setContextClassLoader(copy)
+      try
+        val formats = candela.base.Services.installed(classOf[candela.job.SceneFormat]).toVector
+        assert(formats.map(_.name).contains("glTF"))
+        assert(!Candela.parse(LibraryScenes.text()).hasErrors)
+      finally thread.setContextClassLoader(own)

@@ -79,6 +79,11 @@ class ProblemsSuite extends AnyFunSuite:
     for name <- Vector("mse-reference-image", "mse-reference-out") do
       val problem = refused(RenderSettings().withOption(name, "a.exr"))
       assert(problem.number == "E0008" && problem.help.get.contains("RenderListener"), problem)
+    val curve = "Option \"string msereferenceimage\" \"a.exr\"\n" +
+      "Option \"string msereferenceout\" \"a.txt\"\nCamera \"perspective\"\nWorldBegin\n" +
+      "LightSource \"infinite\"\nShape \"sphere\"\n"
+    Using.resource(Candela.parse(curve).prepare(RenderSettings(samples = 1), 1)): job =>
+      assert(job.problems.stream.anyMatch(p => p.number == "E0008" && p.line == 2), job.problems)
 
   test("a film of a scene made in code says who continues it"):
     TempFolder.use: folder =>

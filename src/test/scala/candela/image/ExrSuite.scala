@@ -55,10 +55,10 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     finally pool.close()
 
   test("of several parts the one with colour is read"):
-    assertHolds(Exr.read(resource("multipart")), rgb :+ ("Z" -> 6))
+    assertHolds(Exr.read(resource("multipart")), rgb :+ ("depth.Z" -> 6))
 
   test("parts with the same pixels are read beside it, under names of their own"):
-    val beside = Vector("N.X" -> 4, "N.Y" -> 5, "shadow.R" -> 0, "depth" -> 6)
+    val beside = Vector("normal.N.X" -> 4, "normal.N.Y" -> 5, "shadow.R" -> 0, "shadow.depth" -> 6)
     assertHolds(Exr.read(resource("parts")), rgb ++ beside)
 
   test("channels of any name come after R, G, B and A"):
@@ -189,12 +189,22 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(outcomes.exists(_.isLeft))
     assert(outcomes.exists(_.isRight))
 
-  test("which of several parts is read is a remark"):
-    assert(Exr.remark(resource("multipart")).exists(_.matches(
-      "the image has [0-9]+ parts, of which part [0-9]+ is read"
-    )))
-    assert(Exr.remark(resource("tiled")).isEmpty)
-    assert(Exr.remark(resource("multipart").take(60)).isEmpty)
+  test("parts that begin their channels' names with their own give them up"):
+    val named = Vector("R" -> 0, "G" -> 1, "B" -> 2, "Layer.Depth.Z" -> 6)
+    assertHolds(Exr.read(resource("parts-named")), named)
+    val nowhere = Vector("first.X" -> 4, "second.X" -> 5)
+    assertHolds(Exr.read(resource("parts-without-colour")), nowhere)
+
+  test("parts that are not read, and other colours, are a remark"):
+    assert(Exr.remark(resource("parts")).contains(
+      "part `small` is not read, as it has other pixels than `beauty`"
+    ))
+    assert(Exr.remark(resource("parts-colours")).contains(
+      "the colours are those of part `albedo`, the first of 2 that have some"
+    ))
+    for name <- Vector("multipart", "parts-named", "tiled") do
+      assert(Exr.remark(resource(name)).isEmpty, name)
+    assert(Exr.remark(resource("parts").take(60)).isEmpty)
 
   test("a wrong number of chunks is refused, which the decoder would not survive"):
     val file = resource("multipart")

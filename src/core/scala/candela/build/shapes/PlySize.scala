@@ -7,12 +7,16 @@ import java.util.zip.GZIPInputStream
 
 import candela.scenefile.Source
 
-/** Roughly how large the mesh of a PLY file is, by the beginning of the file.
+/** Roughly how large the mesh of a PLY file is, by the beginning of the file: no larger than the
+  * file can hold.
   *
   * @param corners of a face, on average
   * @param numbers of a vertex that are kept
   */
-final case class PlySize(vertices: Long, faces: Long, corners: Double, numbers: Int)
+final case class PlySize(vertices: Long, faces: Long, corners: Double, numbers: Int):
+  /** Of elements that take a byte or more each. */
+  private def limited(bytes: Long): PlySize =
+    copy(vertices = Math.min(vertices, bytes), faces = Math.min(faces, bytes))
 
 object PlySize:
 
@@ -29,7 +33,8 @@ object PlySize:
         if isPacked then GZIPInputStream(ByteArrayInputStream(start)).readNBytes(Beginning / 4)
         else start
       val header = PlyHeader.read(Source(file.toString, text), (_, m) => throw IOException(m))
-      Some(size(header, if isPacked then 0 else file.size))
+      Some(size(header, if isPacked then 0 else file.size)
+        .limited(file.size * (if isPacked then DeflateRatio else 1)))
     catch case _: IOException | _: SceneError => None
 
   private def size(header: PlyHeader, length: Long): PlySize =
@@ -58,3 +63,6 @@ object PlySize:
   private val UsualHeader = 1 << 11
   private val Beginning = 1 << 16
   private val MaxCorners = 8.0
+
+  /** The largest of zlib (zlib.net, "Technical Details"). */
+  private val DeflateRatio = 1032L

@@ -1,10 +1,10 @@
 package candela.cli.commands
 
 import candela.base.Figures
-import candela.cli.files.OutputFiles
+import candela.cli.files.{InputImages, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
-import candela.image.{ImageEdits, ImageFiles, WriteOptions}
+import candela.image.{ImageEdits, WriteOptions}
 import candela.job.ImageFile
 
 /** `candela average`: the mean of images, such as renderings with different seeds. */
@@ -14,7 +14,7 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
     val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "mean")
     val images = options.files.iterator.map: name =>
-      name -> ImageFiles.read(OutputFiles.path(name)).premultiplied
+      name -> InputImages.read(OutputFiles.path(name), report).premultiplied
     val mean = ImageEdits.mean(images)
     val writeOptions = WriteOptions(isHalf = options.image.isHalf, display = options.display)
     val about = OutputFiles.sources(options.files.map(OutputFiles.path))

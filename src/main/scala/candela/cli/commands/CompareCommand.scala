@@ -8,7 +8,7 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.cli.files.{FileRegister, Output, OutputFiles}
+import candela.cli.files.{FileRegister, InputImages, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat}
@@ -55,8 +55,8 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     compareOptions.crop.fold(pair)(pair.cropped)
 
   private def compared(image: Path, reference: Path): Comparison =
-    val truth = ImageFiles.read(reference)
-    val measured = ImageFiles.read(image)
+    val truth = InputImages.read(reference, report)
+    val measured = InputImages.read(image, report)
     CompareCommand.checkParts(image -> measured, reference -> truth)
     CompareCommand.checkParts(reference -> truth, image -> measured)
     val comparison = Comparison(pairOf(measured, truth))

@@ -3,7 +3,7 @@ package candela.cli.commands
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import java.nio.file.Path
 
-import candela.cli.files.OutputFiles
+import candela.cli.files.{InputImages, OutputFiles}
 import candela.cli.options.{MapShape, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.convert.SkyImages
@@ -19,7 +19,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
-    val source = ImageFiles.read(path).premultiplied
+    val source = InputImages.read(path, report).premultiplied
     val result =
       try edited(source)
       catch

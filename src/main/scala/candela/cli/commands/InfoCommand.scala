@@ -6,7 +6,7 @@ import candela.color.Encoding
 import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path
 
-import candela.cli.files.{FilmInput, OutputFiles}
+import candela.cli.files.{FilmInput, InputImages, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
@@ -25,7 +25,9 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       val path = OutputFiles.path(name)
       val infoLines =
         if isFilm(path) then described(FilmInput.open(name, report).header)
-        else lines(path, ImageFiles.load(InputFile.named(path)))
+        else
+          InputImages.warn(path, report)
+          lines(path, ImageFiles.load(InputFile.named(path)))
       infoLines.foreach(terminal.out.println)
     terminal.out.flush()
     ExitCode.Done

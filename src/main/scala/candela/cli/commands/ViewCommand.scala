@@ -3,7 +3,7 @@ package candela.cli.commands
 import candela.diagnostics.{Code, Problem, SceneError}
 import java.nio.file.Path
 
-import candela.cli.files.OutputFiles
+import candela.cli.files.{InputImages, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail, ThumbnailKind}
 import candela.image.*
@@ -27,7 +27,7 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
     val images = options.files.map(OutputFiles.path).map: path =>
       path -> ImageFiles.colored(
         path,
-        ImageEdits.layerAsColors(Denoising.displayed(ImageFiles.read(path)))
+        ImageEdits.layerAsColors(Denoising.displayed(InputImages.read(path, report)))
       )
     val about = OutputFiles.sources(images.map(_._1))
     images match

@@ -151,6 +151,18 @@ class PlyFileSuite extends AnyFunSuite:
     assert(uvs("v", "u") == Vector(0.2f, 0.1f, 0.4f, 0.3f, 0.6f, 0.5f))
     assert(uvs("u", "weight").isEmpty)
 
+  test("a header that claims more than the file can hold takes no memory"):
+    val file = Files.createTempFile("mesh", ".ply")
+    try
+      Files.write(file, header("ascii", 2_000_000_000, 400_000_000).getBytes("ISO-8859-1"))
+      val size = PlySize.guess(InputFile.named(file)).get
+      assert(size.vertices <= Files.size(file) && size.faces <= Files.size(file), size)
+      val error = intercept[SceneError](PlyFile.read(InputFile.named(file)))
+      assert(
+        error.problems.head.message.contains("the file is too short for its 2000000000 vertex")
+      )
+    finally Files.delete(file)
+
   test("gzipped files are read"):
     val file = Files.createTempFile("mesh", ".ply.gz")
     try
