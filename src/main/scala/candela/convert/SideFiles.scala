@@ -67,7 +67,7 @@ object RewrittenImages:
   def slide(s: Statement, p: Param, lookup: PictureLookup, tint: Rgb = Rgb.White): String =
     written(s, p, (lookup, tint)): image =>
       val picture = Picture(lightImage(image, name(p), s), lookup)
-      val times = Math.max(1, SlideSize / Math.max(image.width, image.height))
+      val times = Math.max(1, SmoothSize / Math.max(image.width, image.height))
       val enlarged = Image.rgb(image.width * times, image.height * times)
       loop(enlarged.width * enlarged.height): i =>
         val x = (i % enlarged.width + 0.5f) / enlarged.width
@@ -91,7 +91,7 @@ object RewrittenImages:
   private def name(p: Param): String = p.strings.head.replace('\\', '/')
 
   /** Pixels along the longer side: steps between them are hardly seen. */
-  private val SlideSize = 1024
+  val SmoothSize = 1024
 
   /** An image of a single pixel. */
   def plain(s: Statement, color: Rgb): String =

@@ -8,7 +8,9 @@ import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{EqualAreaMap, IesError, IesFile, LatLongMap, SphereMap}
 import candela.scenefile.Param
 
-/** Converts environment maps: equirectangular in v2 and v3, square equal-area in v4. */
+/** Converts environment maps: equirectangular in v2 and v3, square equal-area in v4. pbrt-v2 and v3
+  * interpolate between their pixels, v4 does not; so small ones are enlarged for v4.
+  */
 object SkyImages:
 
   /** Writes the environment map named by `p` for the target dialect; returns its name.
@@ -44,7 +46,7 @@ object SkyImages:
       val width = Math.max(source.width, 360)
       resampled(source, LatLongMap, width, source.height, LatLongMap, smooth = true)
     else if toSquare then
-      val side = Math.min(Math.max(2 * source.height, 64), 4096)
+      val side = Math.min(Math.max(2 * source.height, RewrittenImages.SmoothSize), 4096)
       resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
     else if source.width == 2 * source.height then source
     else
@@ -66,25 +68,27 @@ object SkyImages:
   ): Image =
     val result = Image.rgb(width, height)
     val sum = new Array[Double](3)
+    // Fewer where the source varies little within a pixel
+    val across = Math.max(1, Math.min(SamplesAcross, 2 * SamplesAcross * source.height / height))
     loop(height): y =>
       loop(width): x =>
         java.util.Arrays.fill(sum, 0.0)
-        loop(SamplesAcross): j =>
-          loop(SamplesAcross): i =>
+        loop(across): j =>
+          loop(across): i =>
             val d =
               to.toDirection(
-                (x + (i + 0.5f) / SamplesAcross) / width,
-                (y + (j + 0.5f) / SamplesAcross) / height
+                (x + (i + 0.5f) / across) / width,
+                (y + (j + 0.5f) / across) / height
               )
             val position = from.toImage(d)
             if smooth then bilinear(source, from, position.x, position.y, sum)
             else nearest(source, position.x, position.y, sum)
         loop(3)(c =>
-          result.data((y * width + x) * 3 + c) = (sum(c) / (SamplesAcross * SamplesAcross)).toFloat
+          result.data((y * width + x) * 3 + c) = (sum(c) / (across * across)).toFloat
         )
     result
 
-  /** Samples per pixel along each axis. */
+  /** Samples per pixel along each axis, at most. */
   private val SamplesAcross = 4
 
   private def nearest(image: Image, x: Float, y: Float, sum: Array[Double]): Unit =

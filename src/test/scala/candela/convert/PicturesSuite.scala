@@ -80,6 +80,24 @@ class PicturesSuite extends AnyFunSuite:
         // Half a pixel of 1000, and half floats
         assert(Math.abs(red(0.25f) - expected) < 5e-3f, s"$from: ${red(0.25f)}, $expected")
 
+  test("a small environment map is enlarged, for pbrt-v4 does not interpolate between its pixels"):
+    Samples.inFolder: folder =>
+      // Brightest at the horizon
+      val data = Array.tabulate(16 * 8 * 3): i =>
+        val row = i / (16 * 3)
+        Math.min(row, 7 - row).toFloat
+      ImageFiles.write(folder.resolve("sky-latlong.exr"), Image(16, 8, Image.RgbNames, data))
+      val light = "LightSource \"infinite\" \"string mapname\" \"sky-latlong.exr\"\nWorldEnd"
+      val made = converted(view(Dialect.V3) + light, Dialect.V3, Dialect.V4, folder)
+      val file = made.scene.lights.head.light.param("filename").get.strings.head
+      val image = ImageFiles.read(folder.resolve(file)).linear.toRgb
+      val steps =
+        for y <- 0 until image.height; x <- 1 until image.width
+        yield Math.abs(image(x, y, 0) - image(x - 1, y, 0))
+      // A row of the map is 0.4 radians high, a pixel here some 0.004
+      assert(steps.max < 0.05f && steps.max > 0f, steps.max)
+      assert(made.warnings.isEmpty, made.warnings)
+
   test("slides and skies of 8 bits are not decoded in v3, and are as bright in v4"):
     Samples.inFolder: folder =>
       val grey = Image(8, 4, Image.RgbNames, Array.fill(96)(0.25f))
