@@ -44,8 +44,6 @@ class MaterialsSuite extends AnyFunSuite, GltfModels:
     assert(channel(s, d, "iridescence") == "r" && channel(s, d, "iridescencethickness") == "g")
     assert(number(d, "iridescenceeta") == 1.8f)
     assert(number(d, "iridescencemin") == 200f && number(d, "iridescencemax") == 400f)
-    val thin = extension("iridescence", """"iridescenceThicknessMaximum":-1""")
-    assert(thin.errors.exists(_.message.contains("at least 0 nm")))
 
   test("a clear coat has its own normals, or those of the mesh"):
     val coat = """"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1"""
@@ -87,7 +85,75 @@ class MaterialsSuite extends AnyFunSuite, GltfModels:
     assert(number(surface(extension("dispersion", dispersing, volume)), "dispersion") == 0.5f)
     val flat = extension("dispersion", dispersing)
     assert(flat.warnings.exists(_.message.contains("only volumes")))
-    assert(extension("dispersion", """"dispersion":-1""").errors.nonEmpty)
+
+  /** Its only warning, below the material, and what it is of. */
+  private def warned(s: SceneDescription): String =
+    assert(s.errors.isEmpty && s.warnings.size == 1, (s.errors ++ s.warnings).map(_.message))
+    val p = s.warnings.head
+    s"${p.pos.get.file.split("#/materials/0/").last}: ${p.message}"
+
+  private def gltf(s: SceneDescription): Declaration =
+    s.namedMaterials.map(_._2).find(_.name == "gltf").get
+
+  test("colours out of range have the nearer limit, with a warning at their member"):
+    val base = scene(""""pbrMetallicRoughness":{"baseColorFactor":[2,0,-1,1]}""")
+    assert(warned(base) == "pbrMetallicRoughness/baseColorFactor: `baseColorFactor` must be " +
+      "from 0 to 1, found 2 0 -1 1; using 1 0 0 1")
+    assert(gltf(base).param("color").get.floats.toVector == Vector(1f, 0f, 0f))
+    val faint =
+      scene(""""alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,3]}""")
+    assert(warned(faint).endsWith("found 1 1 1 3; using 1 1 1 1"))
+    assert(faint.shapes.head.shape.param("alpha").get.floats.head == 1f)
+
+  test("numbers out of range have the nearer limit, with a warning at their member"):
+    for
+      (name, member, parameter, range) <- Seq(
+        ("specular", "specularFactor", "specular", "from 0 to 1"),
+        ("specular", "specularColorFactor", "specularcolor", "at least 0"),
+        ("ior", "ior", "eta", "at least 1"),
+        ("transmission", "transmissionFactor", "transmission", "from 0 to 1"),
+        ("clearcoat", "clearcoatFactor", "clearcoat", "from 0 to 1"),
+        ("clearcoat", "clearcoatRoughnessFactor", "clearcoatroughness", "from 0 to 1"),
+        ("sheen", "sheenColorFactor", "sheencolor", "from 0 to 1"),
+        ("sheen", "sheenRoughnessFactor", "sheenroughness", "from 0 to 1"),
+        ("anisotropy", "anisotropyStrength", "anisotropy", "from 0 to 1"),
+        ("iridescence", "iridescenceFactor", "iridescence", "from 0 to 1"),
+        ("iridescence", "iridescenceIor", "iridescenceeta", "at least 1"),
+        ("iridescence", "iridescenceThicknessMinimum", "iridescencemin", "at least 0"),
+        ("iridescence", "iridescenceThicknessMaximum", "iridescencemax", "at least 0"),
+        ("diffuse_transmission", "diffuseTransmissionFactor", "diffusetransmission", "from 0 to 1"),
+        (
+          "diffuse_transmission",
+          "diffuseTransmissionColorFactor",
+          "diffusetransmissioncolor",
+          "from 0 to 1"
+        )
+      )
+    do
+      val value = if member.contains("Color") then "[-2,-2,-2]" else "-2"
+      val s = extension(name, s""""$member":$value""")
+      assert(
+        warned(s).startsWith(s"extensions/KHR_materials_$name/$member: `$member` must be $range,")
+      )
+      assert(number(gltf(s), parameter) == (if range == "at least 1" then 1f else 0f), member)
+    val total = extension("ior", """"ior":0""")
+    assert(number(surface(total), "eta") == 0f)
+    assert(warned(extension("dispersion", """"dispersion":-1""")).endsWith("found -1; using 0"))
+    val cutoff = scene(""""alphaMode":"MASK","alphaCutoff":-2""")
+    assert(warned(cutoff) == "alphaCutoff: `alphaCutoff` must be at least 0, found -2; using 0")
+    assert(cutoff.shapes.head.shape.param("alphacutoff").get.floats.head == 0f)
+
+  test("emission above 1 is used, and below 0 is not, each with a warning"):
+    def emitted(s: SceneDescription) = s.shapes.head.areaLight.get.param("L").get.floats.toVector
+    val bright = scene(""""emissiveFactor":[2,0,0]""")
+    assert(warned(bright) == "emissiveFactor: `emissiveFactor` should be from 0 to 1, found " +
+      "2 0 0, which is used")
+    assert(emitted(bright) == Vector(2f, 0f, 0f))
+    val negative = scene(""""emissiveFactor":[1,-1,0]""")
+    assert(warned(negative).endsWith("must be at least 0, found 1 -1 0; using 1 0 0"))
+    assert(emitted(negative) == Vector(1f, 0f, 0f))
+    val strength = """"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-2}}"""
+    assert(warned(scene(s""""emissiveFactor":[1,1,1],$strength""")).endsWith("using 0"))
 
   test("the anisotropy texture has directions and strength"):
     val s = extension(

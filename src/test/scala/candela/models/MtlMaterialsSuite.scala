@@ -131,6 +131,21 @@ class MtlMaterialsSuite extends AnyFunSuite:
     assert(warned.warnings.size == 2)
     assert(!warned.warnings.exists(w => s"${w.message} ${w.excerpt}".contains("SECRET")))
 
+  test("numbers out of range have the nearer limit, with a warning at their line"):
+    val s = scene("Kd 2 0 -0.1\nd 3\nNs 99999\nNi 0.5\nillum 2\nKs 0 0 0\n")
+    assert(s.warnings.map(told) == Vector(
+      "m.mtl:2:1: `Kd` must be from 0 to 1, found 2 0 -0.1; using 1 0 0",
+      "m.mtl:3:1: `d` must be from 0 to 1, found 3; using 1",
+      "m.mtl:4:1: `Ns` must be from 0 to 1000, found 99999; using 1000",
+      "m.mtl:5:1: `Ni` must be at least 1, found 0.5; using 1"
+    ))
+    val d = material(s, 0)
+    assert(floats(d, "color") == Vector(1f, 0f, 0f))
+    has(d, "roughness" -> 0, "eta" -> 1)
+    for statement <- "Ke Ks Ka Tf Tr Pr Pm Ps Pc Pcr aniso".split(' ') do
+      val warnings = scene(s"$statement -1\n").warnings
+      assert(warnings.size == 1 && warnings.head.message.startsWith(s"`$statement` must be"))
+
   test("unknown statements are warnings with the nearest name"):
     val s = scene("Kdd 1 0 0\ndisp grey.png\nKs spectral a.rfl\n")
     assert(s.warnings.map(told) == Vector(

@@ -24,41 +24,23 @@ private[models] final class Extras private (
 
   /** A number within limits; beyond, the nearer one of these. */
   def number(name: String, default: Double, min: Double, max: Double): Double =
-    entry(name).fold(default): member =>
-      val x = member.number
-      val limited = Math.max(min, Math.min(max, x))
-      if limited != x then
-        def text(x: Double) = Json.numberText(x)
-        val range =
-          if max == Double.PositiveInfinity then s"at least ${text(min)}"
-          else s"from ${text(min)} to ${text(max)}"
-        val message = s"`$name` must be $range, found ${text(x)}; using ${text(limited)}"
-        session.warn(member.at, message, Code.CorrectedValue)
-      limited
+    entry.number(name, default, Limits(min, max))
 
   /** A length, or another number that is not negative. */
   def size(name: String, default: Double): Double =
-    number(name, default, 0, Double.PositiveInfinity)
+    entry.number(name, default, Limits.NonNegative)
 
   /** Two lengths. */
   def sizes(name: String): Vector[Double] =
     val member = entry.required(name)
     val lengths = member.numbers(2)
     if lengths.exists(_ <= 0) then
-      member.fail(s"expected lengths above 0, found ${all(lengths)}")
+      member.fail(s"expected lengths above 0, found ${Limits.text(lengths)}")
     lengths
 
   /** A colour, or a coefficient of each. */
-  def color(name: String, default: Rgb): Rgb = entry(name).fold(default): member =>
-    val c = member.numbers(3)
-    if c.exists(_ < 0) then
-      val message =
-        s"`$name` must be at least 0, found ${all(c)}; using ${all(c.map(Math.max(0, _)))}"
-      session.warn(member.at, message, Code.CorrectedValue)
-    val Vector(r, g, b) = c.map(x => Math.max(0, x).toFloat): @unchecked
-    Rgb(r, g, b)
-
-  private def all(numbers: Vector[Double]): String = numbers.map(Json.numberText).mkString(" ")
+  def color(name: String, default: Rgb): Rgb =
+    Materials.rgb(entry, name, default, Limits.NonNegative)
 
   /** True unless it says otherwise. */
   def isInView: Boolean = entry("inView").forall(_.flag)

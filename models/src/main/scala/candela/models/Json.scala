@@ -75,15 +75,14 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
 
   def number(name: String, default: Double): Double = apply(name).fold(default)(_.number)
 
-  /** A member from 0 to 1; beyond, the nearer one of these. */
-  def factor(name: String, default: Double): Double = apply(name).fold(default): member =>
-    val x = member.number
-    val limited = Math.max(0, Math.min(1, x))
-    if limited != x then
-      val message = s"`$name` must be from 0 to 1, found ${Json.numberText(x)}"
-      val using = s"using ${Json.numberText(limited)}"
-      session.warn(member.at, s"$message; $using", Code.CorrectedValue)
-    limited
+  def number(name: String, default: Double, limits: Limits): Double =
+    apply(name).fold(default)(m => limits(name, Vector(m.number), m.at, session).head)
+
+  def factor(name: String, default: Double): Double = number(name, default, Limits.Unit)
+
+  /** The numbers of a member, if it is there. */
+  def numbers(name: String, count: Int, limits: Limits): Option[Vector[Double]] =
+    apply(name).map(m => limits(name, m.numbers(count), m.at, session))
 
   def size(name: String, default: Int): Int = apply(name).fold(default)(_.size)
   def flag(name: String): Boolean = apply(name).exists(_.flag)

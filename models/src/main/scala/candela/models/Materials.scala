@@ -2,6 +2,7 @@ package candela.models
 
 import candela.base.NumberedNames
 import candela.color.Rgb
+import candela.diagnostics.Code
 import candela.scenefile.{Declaration, MaterialRef, Param}
 
 import scala.collection.mutable
@@ -73,7 +74,7 @@ private[models] final class Materials(
     val passes = entry.extension("KHR_materials_transmission")
     val volume = passes.orElse(entry.extension("KHR_materials_diffuse_transmission"))
       .flatMap(_ => entry.extension("KHR_materials_volume"))
-      .filter(_.number("thicknessFactor", 0) > 0)
+      .filter(_.number("thicknessFactor", 0, Limits.NonNegative) > 0)
     val isFilled = volume.isDefined || inside.isDefined
     val specularGlossiness = entry.extension("KHR_materials_pbrSpecularGlossiness")
     val params = specularGlossiness.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
@@ -115,7 +116,7 @@ private[models] final class Materials(
 
   private def reflection(entry: Json, hasColors: Boolean): Vector[Param] =
     val pbr = base(entry)
-    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, 4)
+    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, count = 4)
     val metallicRoughness = pbr("metallicRoughnessTexture")
     val specular = entry.extension("KHR_materials_specular")
     Vector(
@@ -124,9 +125,9 @@ private[models] final class Materials(
       textures.number("roughness", pbr.factor("roughnessFactor", 1), metallicRoughness, "g", pbr.at)
     ) ++
       entry.extension("KHR_materials_ior")
-        .map(e => Param.float("eta", e.at, e.number("ior", 1.5).toFloat)) ++
+        .map(e => Param.float("eta", e.at, refraction(e).toFloat)) ++
       specular.toVector.flatMap: s =>
-        val tint = Materials.rgb(s, "specularColorFactor", Rgb.White)
+        val tint = Materials.rgb(s, "specularColorFactor", Rgb.White, Limits.NonNegative)
         Vector(
           textures.number(
             "specular",
@@ -138,9 +139,13 @@ private[models] final class Materials(
           textures.color("specularcolor", tint, s("specularColorTexture"), s.at)
         )
 
+  /** 0 is a dielectric that reflects all light. */
+  private def refraction(e: Json): Double =
+    if e.number("ior", 1.5) == 0 then 0 else e.number("ior", 1.5, Limits(1))
+
   /** A dielectric whose reflectance is the specular colour. */
   private def glossiness(e: Json, hasColors: Boolean): Vector[Param] =
-    val color = Materials.rgb(e, "diffuseFactor", Rgb.White, 4)
+    val color = Materials.rgb(e, "diffuseFactor", Rgb.White, count = 4)
     val specular = Materials.rgb(e, "specularFactor", Rgb.White)
     val specularGlossinessTexture = e("specularGlossinessTexture")
     Vector(
@@ -191,15 +196,14 @@ private[models] final class Materials(
   private def iridescence(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_iridescence").toVector.flatMap: f =>
       def nm(member: String, default: Double) =
-        f(member).fold(default): m =>
-          if m.number >= 0 then m.number else m.fail(s"expected at least 0 nm, found ${m.number}")
+        Param.float(_, f.at, f.number(member, default, Limits.NonNegative).toFloat)
       val thickness = f("iridescenceThicknessTexture")
       val weight = f.factor("iridescenceFactor", 0)
       Vector(
         textures.number("iridescence", weight, f("iridescenceTexture"), "r", f.at),
-        Param.float("iridescenceeta", f.at, f.number("iridescenceIor", 1.3).toFloat),
-        Param.float("iridescencemin", f.at, nm("iridescenceThicknessMinimum", 100).toFloat),
-        Param.float("iridescencemax", f.at, nm("iridescenceThicknessMaximum", 400).toFloat)
+        Param.float("iridescenceeta", f.at, f.number("iridescenceIor", 1.3, Limits(1)).toFloat),
+        nm("iridescenceThicknessMinimum", 100)("iridescencemin"),
+        nm("iridescenceThicknessMaximum", 400)("iridescencemax")
       ) ++ thickness.map(t => textures.number("iridescencethickness", 1, Some(t), "g", f.at))
 
   private def diffuseTransmission(entry: Json): Vector[Param] =
@@ -214,8 +218,7 @@ private[models] final class Materials(
 
   private def dispersion(entry: Json, refracts: Boolean): Option[Param] =
     entry.extension("KHR_materials_dispersion").flatMap: d =>
-      val strength = d.number("dispersion", 0)
-      if strength < 0 then d.fail(s"expected a `dispersion` of at least 0, found $strength")
+      val strength = d.number("dispersion", 0, Limits.NonNegative)
       if strength > 0 && !refracts then
         session.warn(d.at, "only volumes that transmit light disperse it; ignored")
       Option.when(strength > 0 && refracts)(Param.float("dispersion", d.at, strength.toFloat))
@@ -231,7 +234,7 @@ private[models] final class Materials(
   private def opacity(entry: Json, color: Json, prefix: String, hasColors: Boolean): Vector[Param] =
     def alpha = textures.number(
       "alpha",
-      color(s"${prefix}Factor").fold(1.0)(_.numbers(4).last),
+      color.numbers(s"${prefix}Factor", 4, Limits.Unit).fold(1.0)(_.last),
       color(s"${prefix}Texture"),
       "a",
       entry.at,
@@ -241,15 +244,21 @@ private[models] final class Materials(
       case "OPAQUE" => Vector.empty
       case "BLEND" => Vector(alpha)
       case "MASK" =>
-        val cutoff = entry.number("alphaCutoff", 0.5).toFloat
+        val cutoff = entry.number("alphaCutoff", 0.5, Limits.NonNegative).toFloat
         Vector(alpha, Param.float("alphacutoff", entry.at, cutoff))
       case other =>
         entry.required("alphaMode").fail(s"expected OPAQUE, MASK or BLEND, found `$other`")
 
   private def emission(entry: Json): Option[Declaration] =
-    val factor = Materials.rgb(entry, "emissiveFactor", Rgb.Black)
+    val factor = Materials.rgb(entry, "emissiveFactor", Rgb.Black, Limits.NonNegative)
+    // Many exporters write more than the specification allows, and importers use it
+    for member <- entry("emissiveFactor") if factor.max > 1f do
+      val message = s"`emissiveFactor` should be ${Limits.Unit}, found "
+      val help = Some("KHR_materials_emissive_strength scales it beyond 1")
+      val values = Limits.text(member.numbers(3))
+      session.warn(member.at, s"$message$values, which is used", Code.ParameterValue, help)
     val strength = entry.extension("KHR_materials_emissive_strength")
-      .fold(1.0)(_.number("emissiveStrength", 1))
+      .fold(1.0)(_.number("emissiveStrength", 1, Limits.NonNegative))
     val color = factor * strength.toFloat
     Option.when(color.max > 0f)(light(entry, color, entry("emissiveTexture")))
 
@@ -261,7 +270,7 @@ private[models] final class Materials(
     if hasColors then
       session.warn(entry.at, "colours of vertices of an unlit material are not supported")
     val pbr = base(entry)
-    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, 4)
+    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, count = 4)
     val black = Vector(Picture.rgb("reflectance", Rgb.Black, entry.at))
     val d = session.declare("Material", "diffuse", entry.at, black)
     val emitted = Option.when(color.max > 0f)(light(entry, color, pbr("baseColorTexture")))
@@ -274,8 +283,14 @@ private[models] final class Materials(
 
 private[models] object Materials:
   /** The colour of a member, or a default: the first three of `count` numbers. */
-  def rgb(entry: Json, member: String, default: Rgb, count: Int = 3): Rgb =
-    entry(member).map(_.numbers(count)).fold(default): c =>
+  def rgb(
+      entry: Json,
+      member: String,
+      default: Rgb,
+      limits: Limits = Limits.Unit,
+      count: Int = 3
+  ): Rgb =
+    entry.numbers(member, count, limits).fold(default): c =>
       Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
 
   def default(session: Session): Json = Json(ujson.Obj(), "", session)

@@ -130,7 +130,7 @@ private final class MtlParser(
     else if material.isEmpty then
       val message = s"${in.quoted(word)} belongs to no material; ignored"
       session.warn(at, message, Code.UnknownDirective)
-    else if Numbers.contains(key) then numbers(key, at)
+    else if Numbers.contains(key) then numbers(word, at)
     else if Maps.contains(key) then
       for m <- map(at) do
         material = material.map(x => x.copy(maps = x.maps.updated(Maps(key), m)))
@@ -140,7 +140,8 @@ private final class MtlParser(
       val message = s"unknown statement ${in.quoted(word)}; ignored"
       session.warn(at, message, Code.UnknownDirective, help)
 
-  private def numbers(key: String, at: SourcePos): Unit =
+  private def numbers(word: String, at: SourcePos): Unit =
+    val key = word.toLowerCase
     val start = in.mark
     val form = in.word()
     if form == "spectral" || form == "xyz" then
@@ -154,7 +155,10 @@ private final class MtlParser(
         if Numbers(key) == 1 then Vector(first)
         else if !in.hasNext then Vector.fill(3)(first)
         else Vector(first, in.finite(), in.finite())
-      material = material.map(x => x.copy(numbers = x.numbers.updated(key, values)))
+      // With the digits of the file
+      val limited = Ranges.get(key).fold(values): limits =>
+        limits(word, values.map(_.toString.toDouble), at, session).map(_.toFloat)
+      material = material.map(x => x.copy(numbers = x.numbers.updated(key, limited)))
 
   /** The options of an image, and its name, which may have spaces. */
   private def map(at: SourcePos): Option[MtlMap] =
@@ -211,6 +215,16 @@ private object MtlParser:
   val Numbers: Map[String, Int] =
     "ka kd ks ke tf".split(' ').map(_ -> 3).toMap ++
       "ns ni d tr illum pr pm ps pc pcr aniso anisor".split(' ').map(_ -> 1)
+
+  /** The range of the numbers of each statement that has one. */
+  val Ranges: Map[String, Limits] =
+    "ka kd tf d tr pr pm ps pcr aniso".split(' ').map(_ -> Limits.Unit).toMap ++ Map(
+      "ks" -> Limits.NonNegative,
+      "ke" -> Limits.NonNegative,
+      "ns" -> Limits(0, MtlMaterials.MaxExponent),
+      "ni" -> Limits(1),
+      "pc" -> Limits(0, 1 / MtlMaterials.CoatOfThickness)
+    )
 
   /** What each image is of. */
   val Maps: Map[String, String] = Map(

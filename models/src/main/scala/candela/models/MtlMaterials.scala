@@ -183,12 +183,12 @@ private[models] final class MtlMaterials(session: Session, pictures: Pictures):
       }
     )
 
-private object MtlMaterials:
+private[models] object MtlMaterials:
   /** The exponent of Phong that is as smooth as can be. */
-  private val MaxExponent = 1000f
+  val MaxExponent = 1000f
 
   /** Of Disney's clear coat. */
-  private val CoatOfThickness = 0.25f
+  val CoatOfThickness = 0.25f
   private val UsualCoatRoughness = 0.03f
 
   /** Values of `illum` whose surfaces reflect their surroundings, or let light pass. */
