@@ -477,6 +477,31 @@ def without_surface(made):
     tree.links.remove(output.inputs["Surface"].links[0])
 
 
+def principled(made, **inputs):
+    """The ball, smooth."""
+    tree = made.ball.data.materials[0].node_tree
+    shader = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
+    for name, value in {"Specular IOR Level": 0.5, "Roughness": 0, **inputs}.items():
+        shader.inputs[name.replace("_", " ")].default_value = value
+    for face in made.ball.data.polygons:
+        face.use_smooth = True
+    made.ball.modifiers.new("Subdivision", "SUBSURF").render_levels = 2
+    return made
+
+
+def glass(**inputs):
+    inputs = {"Transmission_Weight": 1, "IOR": 1.45, **inputs}
+    return principled(lit(world=1, lens=90), **inputs)
+
+
+def with_output(made):
+    """Another of EEVEE, which is active."""
+    tree = made.floor.data.materials[0].node_tree
+    shader, output = (tree.nodes.new(f"ShaderNode{n}") for n in ("Emission", "OutputMaterial"))
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    output.target, output.is_active_output = "EEVEE", True
+
+
 def muted(made):
     made.floor.data.materials[0].node_tree.nodes["Principled BSDF"].mute = True
     made.background.inputs["Strength"].default_value = 5
@@ -675,6 +700,11 @@ SCENES = {
     "image": lambda: changed(lit(world=1), papered),
     "no material": lambda: changed(lit(), unpainted),
     "no surface": lambda: changed(lit(), without_surface),
+    "glass": lambda: glass(Base_Color=(1, 1, 1, 1)),
+    "tinted glass": lambda: glass(Base_Color=(0.8, 0.4, 0.2, 1)),
+    "partial glass": lambda: glass(Base_Color=(0.5, 0.5, 0.5, 1), Transmission_Weight=0.5),
+    "index of refraction": lambda: principled(lit(world=1, lens=90), Roughness=0.2, IOR=3),
+    "another output": lambda: changed(lit(), with_output),
     "muted nodes": lambda: changed(lit(), muted),
     "no image": lambda: changed(lit(), without_image),
     "transparent": lambda: changed(lit(), lambda made: on_floor(made, "BsdfTransparent", None)),
@@ -989,6 +1019,10 @@ class Exporting(unittest.TestCase):
             image.source, image.filepath = "FILE", "//no such file.png"
             image.reload()
 
+        def tinted_glass(made, tree, shader):
+            papered(made)
+            shader.inputs["Transmission Weight"].default_value = 1
+
         def cubic(made, tree, shader):
             papered(made)
             next(n for n in tree.nodes if n.type == "TEX_IMAGE").interpolation = "Cubic"
@@ -1029,6 +1063,7 @@ class Exporting(unittest.TestCase):
             (muted, is_muted("node 'Image Texture'")),
             (muted_link, is_muted("a link to node 'Principled BSDF'")),
             (lambda made, *_: without_image(made), "node 'Image Texture': it has no image"),
+            (tinted_glass, lost("a linked color of glass")),
             (cubic, "the interpolation of node 'Image Texture' is linear, not Cubic"),
             (sequence, "image 'wood' is not supported as a sequence"),
             (within_world, unread("'Normal Map'")),
@@ -1039,7 +1074,10 @@ class Exporting(unittest.TestCase):
             (set_input("Subsurface Weight", 0.5), lost("Subsurface Weight")),
             (set_input("Thin Film Thickness", 300), lost("Thin Film Thickness")),
             (set_input("Base Color", (2, 1, 1, 1)), lost("Base Color above 1")),
-            (linked("Value", "IOR"), lost("a linked IOR")),
+            (linked("Math", "IOR", operation="MULTIPLY"), lost("a linked IOR")),
+            (linked("Value", "IOR"), lost("an IOR below 1")),
+            (linked("Value", "Transmission Weight"), None),
+            (set_input("Transmission Weight", 0.5), lost("the exact tint of partial glass")),
             (set_input("Emission Strength", 2), None),
             (set_input("Coat IOR", 2), None),
             (set_input("Alpha", 0.5), None),

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import bpy
 from mathutils import Matrix
 
-from .nodes import of_surface, tree_of
+from .nodes import of_surface, output_of, tree_of
 
 # From z up to y up
 UPRIGHT = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -79,10 +79,10 @@ class Meshes:
         return bpy.data.meshes.new_from_object(instanced)
 
     def _material(self, evaluated):
-        """The original, or a copy with the values of this time."""
+        """The original, or a copy with the values of this time and Cycles' output."""
         original = evaluated.original
         tree = tree_of(original)
-        if tree is not None and tree.animation_data is not None:
+        if tree is not None and (tree.animation_data is not None or _has_other_output(tree)):
             if original.name not in self._copies:
                 self._copies[original.name] = _still(original, evaluated)
             original = self._copies[original.name]
@@ -95,10 +95,19 @@ class Meshes:
         bpy.data.batch_remove([*objects, *data, *self._copies.values(), self.scene])
 
 
+def _has_other_output(tree):
+    """Whether the exporter reads another output than Cycles."""
+    output = output_of(tree)
+    return output is not None and not output.is_active_output
+
+
 def _still(original, evaluated):
     """A copy of a material with the evaluated values of its nodes."""
     made = original.copy()
     made.node_tree.animation_data_clear()
+    output = output_of(made.node_tree)
+    if output is not None:
+        output.is_active_output = True
     for node, source in zip(made.node_tree.nodes, evaluated.node_tree.nodes, strict=True):
         sockets = zip((*node.inputs, *node.outputs), (*source.inputs, *source.outputs), strict=True)
         for socket, animated in sockets:

@@ -45,7 +45,7 @@ def _emission(light, warn):
     """What the nodes make of the light."""
     if not light.use_nodes or light.node_tree is None:
         return (1.0, 1.0, 1.0)
-    output = output_of(light.node_tree, "OUTPUT_LIGHT")
+    output = output_of(light.node_tree)
     node = linked(output, "Surface") if output else None
     if node is None:
         return (0.0, 0.0, 0.0)

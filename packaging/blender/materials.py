@@ -59,7 +59,7 @@ def check_attributes(mesh, name, warn):
 
 def _check_material(material, warn):
     tree = tree_of(material)
-    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    output = output_of(tree) if tree else None
     if output is None:
         return
     if linked(output, "Displacement") is not None:
@@ -156,8 +156,13 @@ def _lost_inputs(node):
     color = unlinked(node.inputs["Base Color"])
     if color is not None and max(color[:3]) > 1:
         yield "Base Color above 1"
-    if source(node.inputs["IOR"]) is not None:
+    if unlinked(node.inputs["IOR"]) is None:
         yield "a linked IOR"
+    elif unlinked(node.inputs["IOR"]) < 1:
+        yield "an IOR below 1"
+    tint = surfaces.lost_tint(node)
+    if tint is not None:
+        yield tint
 
 
 def _other_alphas(nodes):

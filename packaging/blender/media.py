@@ -40,7 +40,7 @@ DEFAULT = Medium((0.5,) * 3, (0.5,) * 3, grid=DENSITY)
 def is_surface(material):
     """Whether light meets a surface of the material."""
     tree = tree_of(material)
-    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    output = output_of(tree) if tree else None
     return output is None or linked(output, "Surface") is not None
 
 
@@ -50,7 +50,7 @@ def of(material, grids, warn):
     :param grids: names of those that the object has
     """
     tree = tree_of(material)
-    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    output = output_of(tree) if tree else None
     node = linked(output, "Volume") if output else None
     if node is None:
         return None

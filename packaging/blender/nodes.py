@@ -12,11 +12,9 @@ def tree_of(owner):
     return owner.node_tree if _ALWAYS_USED or owner.use_nodes else None
 
 
-def output_of(tree, kind):
-    """The active output of this type, or None."""
-    outputs = [node for node in tree.nodes if node.type == kind]
-    active = [node for node in outputs if getattr(node, "is_active_output", True)]
-    return (active or outputs or [None])[0]
+def output_of(tree):
+    """The output that Cycles reads of a material, a world or a light, or None."""
+    return tree.get_output_node("CYCLES")
 
 
 def linked(node, name):
@@ -81,14 +79,17 @@ def muted(node):
 
 def group_output(node):
     """The node that a group ends with, or None."""
-    is_group = node.type == "GROUP" and node.node_tree is not None
-    return output_of(node.node_tree, "GROUP_OUTPUT") if is_group else None
+    if node.type != "GROUP" or node.node_tree is None:
+        return None
+    outputs = [each for each in node.node_tree.nodes if each.type == "GROUP_OUTPUT"]
+    active = [each for each in outputs if each.is_active_output]
+    return (active or outputs or [None])[0]
 
 
 def of_surface(material):
     """The nodes that the surface of a material depends on."""
     tree = tree_of(material)
-    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    output = output_of(tree) if tree else None
     return upstream(linked(output, "Surface")) if output else ()
 
 

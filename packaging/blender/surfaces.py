@@ -8,6 +8,9 @@ BLACK = (0.0, 0.0, 0.0)
 _DEFAULT = (0.8, 0.8, 0.8)
 # What Cycles has where an image is missing
 _MISSING = [1.0, 0.0, 1.0]
+_SPECULAR = "KHR_materials_specular"
+_TRANSMISSION = "KHR_materials_transmission"
+_USUAL_INDEX = 1.5
 # Shaders that the exporter reads
 EXPORTED = ("BSDF_PRINCIPLED", "EMISSION")
 
@@ -27,7 +30,7 @@ class Surface(NamedTuple):
 def of(material):
     """The surface of a material, or None if nothing is linked."""
     tree = tree_of(material)
-    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    output = output_of(tree) if tree else None
     node = _entered(source(output.inputs["Surface"])) if output else None
     if node is None:
         return None
@@ -87,17 +90,83 @@ def mend(gltf_material, material):
     if texture is not None and is_missing(texture):
         pbr = gltf_material.pbr_metallic_roughness
         pbr.base_color_factor = _MISSING + list(pbr.base_color_factor or [1.0] * 4)[3:]
+    if surface.shader is not None and surface.shader.type == "BSDF_PRINCIPLED":
+        _mend_index(gltf_material, surface.shader)
+        _mend_glass(gltf_material, surface.shader)
+
+
+def _mend_index(gltf_material, shader):
+    """The exporter keeps it beside some extensions alone."""
+    index = unlinked(shader.inputs["IOR"])
+    if index is not None and index != _USUAL_INDEX:
+        specular = _fields(gltf_material, _SPECULAR)
+        _extend(gltf_material, _SPECULAR, {"specularFactor": 1.0, **specular})
+        _extend(gltf_material, "KHR_materials_ior", {"ior": index})
+
+
+def _mend_glass(gltf_material, shader):
+    """Cycles refracts, and the root of the color tints light at each surface."""
+    fields = _fields(gltf_material, _TRANSMISSION)
+    weight = fields.get("transmissionFactor", 0.0)
+    if not weight:
+        return
+    _extend(gltf_material, "KHR_materials_volume", {"thicknessFactor": 1.0})
+    if not _is_constant(shader):
+        return
+    pbr = gltf_material.pbr_metallic_roughness
+    *color, alpha = pbr.base_color_factor or [1.0] * 4
+    passed = _passed(shader)
+    # The one color of glTF is that of all that is scattered; its share that passes is gray
+    mixed = [c * (1 - passed) + c**0.5 * passed for c in color]
+    share = sum(c**0.5 for c in color) / (sum(mixed) or 1.0)
+    fields["transmissionFactor"] = min(weight * share, 1.0)
+    pbr.base_color_factor = [*mixed, alpha]
+
+
+def _passed(shader):
+    """The share of light that is not reflected and passes, of constants."""
+    metallic, weight = (
+        min(max(unlinked(shader.inputs[name]), 0.0), 1.0)
+        for name in ("Metallic", "Transmission Weight")
+    )
+    return weight * (1 - metallic)
+
+
+def _is_constant(shader):
+    inputs = (shader.inputs[name] for name in ("Base Color", "Metallic", "Transmission Weight"))
+    return all(unlinked(socket) is not None for socket in inputs)
+
+
+def lost_tint(shader):
+    """What differs of the tint of a Principled BSDF that is glass, or None."""
+    if unlinked(shader.inputs["Transmission Weight"]) == 0:
+        return None
+    if not _is_constant(shader):
+        return "a linked color of glass"
+    is_gray = len(set(unlinked(shader.inputs["Base Color"])[:3])) == 1
+    return None if is_gray or _passed(shader) in (0, 1) else "the exact tint of partial glass"
+
+
+def _fields(gltf_material, name):
+    """Of an extension."""
+    extension = (gltf_material.extensions or {}).get(name)
+    return extension.extension if extension is not None else {}
+
+
+def _extend(gltf_material, name, fields):
+    from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
+
+    extensions = gltf_material.extensions or {}
+    gltf_material.extensions = extensions | {name: Extension(name, fields, False)}
 
 
 def _paint(gltf_material, color, roughness=1.0, specular=0.0):
     """Makes the exported material a dielectric of this color, by default diffuse."""
     from io_scene_gltf2.io.com.gltf2_io import MaterialPBRMetallicRoughness
-    from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
-
-    name = "KHR_materials_specular"
     rgba = [*(min(max(c, 0.0), 1.0) for c in color), 1.0]
     gltf_material.pbr_metallic_roughness = MaterialPBRMetallicRoughness(
         rgba, None, None, None, 0.0, None, roughness
     )
     gltf_material.emissive_factor = gltf_material.emissive_texture = None
-    gltf_material.extensions = {name: Extension(name, {"specularFactor": specular}, False)}
+    gltf_material.extensions = None
+    _extend(gltf_material, _SPECULAR, {"specularFactor": specular})

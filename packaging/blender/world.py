@@ -33,7 +33,7 @@ def environment(world, folder: Path, warn):
     tree = tree_of(world)
     if tree is None:
         return {"radiance": list(world.color)}
-    output = output_of(tree, "OUTPUT_WORLD")
+    output = output_of(tree)
     if output is None:
         return {"radiance": [0.0, 0.0, 0.0]}
     if linked(output, "Volume") is not None:
