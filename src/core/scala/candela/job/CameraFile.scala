@@ -3,8 +3,8 @@ package candela.job
 import candela.build.media.Interiors
 import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import candela.io.{InputFile, IoReason, SceneFolder}
-import candela.mitsuba.MitsubaScene
-import candela.scenefile.{CameraStatements, Dialect, Resolution, SceneDescription, Source}
+import candela.mitsuba.SensorFile
+import candela.scenefile.{CameraStatements, Defines, Dialect, Resolution, SceneDescription, Source}
 import candela.settings.ReadSettings
 
 import java.io.IOException
@@ -13,33 +13,49 @@ import java.nio.file.{Files, InvalidPathException, Path}
 
 import scala.util.Using
 
-/** Files with a camera in place of a scene's own: `LookAt` and `Camera` statements for scenes of
-  * every format, or the `<sensor>` of Mitsuba's.
+/** A file with a camera in place of a scene's own.
+  *
+  * @param parameters names of the user's values that it has
+  * @param view       the scene with its camera; throws [[SceneError]] if the text has errors
+  */
+final class CameraFile private (
+    name: String,
+    file: Path,
+    val parameters: Set[String],
+    view: SceneDescription => SceneDescription
+):
+  /** The scene with this camera, and with the medium around it.
+    *
+    * @throws SceneError if the file is wrong
+    */
+  def applied(scene: SceneDescription): SceneDescription =
+    val viewed = view(scene)
+    viewed.copy(
+      sources = viewed.sources :+ file,
+      warnings = viewed.warnings ++ CameraFile.mirroring(scene, viewed, name)
+    )
+
+/** Reads them: `LookAt` and `Camera` statements for scenes of every format, or the `<sensor>` of
+  * Mitsuba's.
   */
 object CameraFile:
 
-  /** The scene with the camera of the file that the user has named, if any, and with the medium
-    * around it.
+  /** The file that the user has named.
     *
-    * @throws SceneError if the file is missing or wrong
+    * @throws SceneError if it is missing or wrong
     */
-  def applied(
-      scene: SceneDescription,
-      within: SceneFolder,
-      reading: ReadSettings
-  ): SceneDescription = reading.camera.fold(Interiors.aroundCamera(scene)): name =>
+  def read(name: String, within: SceneFolder, reading: ReadSettings): CameraFile =
     val file = existing(name)
     // The user has named it, so an untrusted scene's may be anywhere
     val folder = SceneFolder.of(file, allowance = within.allowance)
     val text = textOf(name, folder.scene(file))
-    val isSensor = text.stripPrefix("\uFEFF").stripLeading.startsWith("<")
-    val viewed =
-      if isSensor then ofSensor(scene, file, folder, text, reading)
-      else ofStatements(scene, name, text, folder)
-    viewed.copy(
-      sources = viewed.sources :+ file,
-      warnings = viewed.warnings ++ mirroring(scene, viewed, name)
-    )
+    if text.stripPrefix("\uFEFF").stripLeading.startsWith("<") then
+      val sensor = SensorFile(file, folder, text.stripPrefix("\uFEFF"), reading.defines)
+      new CameraFile(name, file, sensor.parameters, ofSensor(_, file, sensor, reading))
+    else
+      val defines = Defines(reading.defines)
+      val source = defines.substitute(Source.fromText(name, text))
+      new CameraFile(name, file, defines.usedNames, ofStatements(_, source, folder))
 
   /** If pbrt's left-handed camera stands in a right-handed scene, or the reverse. */
   private def mirroring(
@@ -62,15 +78,13 @@ object CameraFile:
     * @throws SceneError if the text has errors
     */
   def ofText(scene: SceneDescription, name: String, text: String): SceneDescription =
-    ofStatements(scene, name, text, scene.folder)
+    ofStatements(scene, Source.fromText(name, text), scene.folder)
 
   private def ofStatements(
       scene: SceneDescription,
-      name: String,
-      text: String,
+      source: Source,
       folder: SceneFolder
   ): SceneDescription =
-    val source = Source.fromText(name, text)
     CameraStatements.applied(scene, source, folder, Interiors.aroundCamera)
 
   private def existing(name: String): Path =
@@ -95,12 +109,11 @@ object CameraFile:
 
   private val MaxBytes = 1 << 20
 
-  /** Of the text of a `<sensor>`, whose film has the size of the scene's. */
+  /** Of a `<sensor>`, whose film has the size of the scene's. */
   private def ofSensor(
       scene: SceneDescription,
       file: Path,
-      folder: SceneFolder,
-      text: String,
+      sensor: SensorFile,
       reading: ReadSettings
   ): SceneDescription =
     if scene.dialect != Dialect.Mitsuba then
@@ -110,28 +123,15 @@ object CameraFile:
         "a <sensor> is a camera of Mitsuba's scenes, and this scene is of another format",
         Some("write `LookAt` and `Camera`")
       ))
-    val prolog = Prolog.findPrefixOf(text).getOrElse("")
-    val wrapped = s"$prolog$Opening${text.drop(prolog.length)}\n</scene>"
     def size(name: String) = scene.film.flatMap(_.param(name)).flatMap(_.ints.headOption)
     val resolution = size("xresolution").zip(size("yresolution")).map: (width, height) =>
       val (seenWidth, seenHeight) =
         reading.resolution.fold((width, height))(_.of(width, height))
       Resolution.Size(seenWidth, seenHeight)
-    val sensor = MitsubaScene.readable(
-      file,
-      reading.defines,
-      reading.keepGoing,
-      Some(folder),
-      Some(wrapped),
-      resolution = resolution
-    )
-    if sensor.errors.nonEmpty then throw SceneError(sensor.errors)
+    val viewed = sensor.view(reading.keepGoing, resolution)
+    if viewed.errors.nonEmpty then throw SceneError(viewed.errors)
     scene.copy(
-      camera = sensor.camera,
-      worldToCamera = sensor.worldToCamera,
-      warnings = scene.warnings ++ sensor.warnings
+      camera = viewed.camera,
+      worldToCamera = viewed.worldToCamera,
+      warnings = scene.warnings ++ viewed.warnings
     )
-
-  /** What an XML file may have before its root. */
-  private val Prolog = raw"(?s)\x{FEFF}?\s*(<\?xml.*?\?>)?".r
-  private val Opening = "<scene version=\"3.0.0\">"

@@ -4,6 +4,7 @@ import candela.base.Services
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.{FileName, ForeignKind, SceneFolder}
 import candela.build.DialectChoice
+import candela.build.media.Interiors
 import candela.mitsuba.{MitsubaScene, XmlFile}
 import candela.scenefile.{Defines, Parser, SceneDescription, TokenDigest}
 import candela.settings.{ModelSettings, ModelState, ReadSettings, Sensors}
@@ -59,14 +60,19 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       text: Option[String] = None
   ): SceneDescription =
     checkOptions(file, reading)
-    CameraFile.applied(readable(file, within, reading, world, text), within, reading)
+    val camera = reading.camera.map(CameraFile.read(_, within, reading))
+    val usedByCamera = camera.fold(Set.empty)(_.parameters)
+    val scene = readable(file, within, reading, world, text, usedByCamera)
+    camera.fold(Interiors.aroundCamera(scene))(_.applied(scene))
 
+  /** @param usedByCamera names of values that the camera file has, and that the scene needn't */
   protected def readable(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
-      text: Option[String]
+      text: Option[String],
+      usedByCamera: Set[String]
   ): SceneDescription
 
   /** Index of the sensor that is asked for, if any is. */
@@ -153,9 +159,10 @@ object SceneFormat:
         within: SceneFolder,
         reading: ReadSettings,
         world: Option[Int],
-        text: Option[String]
+        text: Option[String],
+        usedByCamera: Set[String]
     ): SceneDescription =
-      val (dialect, defines) = (reading.dialect, Defines(reading.defines))
+      val (dialect, defines) = (reading.dialect, Defines(reading.defines, usedByCamera))
       val (keepGoing, n) = (reading.keepGoing, world.getOrElse(0))
       val read = text match
         case Some(text) =>
@@ -195,7 +202,8 @@ object SceneFormat:
         within: SceneFolder,
         reading: ReadSettings,
         world: Option[Int],
-        text: Option[String]
+        text: Option[String],
+        usedByCamera: Set[String]
     ): SceneDescription =
       val scene = MitsubaScene.readable(
         file,
@@ -204,7 +212,8 @@ object SceneFormat:
         Some(within),
         text,
         sensor(reading, world),
-        reading.resolution
+        reading.resolution,
+        usedByCamera
       )
       val hasNext = scene.isFollowed && world.isDefined && reading.sensors.contains(Sensors.All)
       scene.copy(isFollowed = hasNext)

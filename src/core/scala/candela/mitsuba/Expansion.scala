@@ -12,25 +12,32 @@ import scala.collection.mutable
   * @param aliases  ids by their aliases
   * @param folders  where to look for files, first those of `path`
   * @param sources  the scene file and its includes
+  * @param parameters names of values that it has
   */
 final class Expanded(
     val elements: Vector[Element],
     val aliases: Map[String, String],
     val folders: Vector[Path],
-    val sources: Vector[Path]
-)
+    val sources: Vector[Path],
+    val parameters: Set[String]
+):
+  /** The same of some of its elements. */
+  def of(elements: Vector[Element]): Expanded =
+    Expanded(elements, aliases, folders, sources, parameters)
 
 /** Expands one scene file.
   *
   * @param folder  its folder
   * @param defines values of `$name` that override those of `default`
-  * @param text    what is read instead of the file
+  * @param parsed  its root, if that is not read from the file
+  * @param usedElsewhere names of `defines` that need no use here
   */
 final class Expansion(
     file: Path,
     folder: SceneFolder,
     defines: Map[String, String],
-    text: Option[String] = None
+    parsed: Option[Element] = None,
+    usedElsewhere: Set[String] = Set.empty
 ):
   private val values = mutable.HashMap.from(defines)
   private val referenced = mutable.HashSet.empty[String]
@@ -39,16 +46,16 @@ final class Expansion(
   /** Those of the scene file's `path` elements: of equal files, Mitsuba takes the last one's. */
   private var paths = Vector.empty[Path]
   private var pathsOfIncludes = Vector.empty[Path]
-  private val sources = mutable.ArrayBuffer.from(Option.when(text.isEmpty)(file))
+  private val sources = mutable.ArrayBuffer.from(Option.when(parsed.isEmpty)(file))
   private var remainingLength = Expansion.MaxTextLength
 
   def result(): Expanded =
-    val elements = text match
-      case Some(content) => contents(XmlFile.ofText(file.toString, content), Nil)
+    val elements = parsed match
+      case Some(root) => contents(root, Nil)
       case None =>
         val main = folder.scene(file)
         contents(XmlFile.read(main, None), List(main))
-    val unused = defines.keySet -- referenced
+    val unused = defines.keySet -- referenced -- usedElsewhere
     if unused.nonEmpty then
       val name = unused.min
       val help = Suggest.help(name, values.keySet.toSet -- unused)
@@ -57,7 +64,7 @@ final class Expansion(
         s"the scene has no parameter `$$$name`",
         help
       ))
-    Expanded(elements, aliases.toMap, folders, sources.toVector)
+    Expanded(elements, aliases.toMap, folders, sources.toVector, referenced.toSet)
 
   private def folders: Vector[Path] = (paths :+ folder.path) ++ pathsOfIncludes
 

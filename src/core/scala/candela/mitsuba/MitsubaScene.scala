@@ -20,6 +20,7 @@ object MitsubaScene:
     * @param sensor    index of the sensor that sees the scene; none: the first, and a warning of
     *                  others
     * @param resolution of the image; none: that of the film
+    * @param usedElsewhere names of `defines` that need no use here
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
@@ -29,17 +30,34 @@ object MitsubaScene:
       within: Option[SceneFolder] = None,
       text: Option[String] = None,
       sensor: Option[Int] = None,
-      resolution: Option[Resolution] = None
+      resolution: Option[Resolution] = None,
+      usedElsewhere: Set[String] = Set.empty
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
-    def excerpted(problems: Vector[Problem]) =
-      Excerpts.fill(problems, Excerpts.sources(text.map(NamedText(file.toString, _))))
-    val expanded =
-      try Expansion(file, folder, defines, text).result()
-      catch case e: SceneError => throw SceneError(excerpted(e.problems))
+    val expanded = withExcerpts(file, text):
+      val root = text.map(XmlFile.ofText(file.toString, _))
+      Expansion(file, folder, defines, root, usedElsewhere).result()
     val session = Session(expanded, folder, keepGoing, sensor, resolution)
+    translated(expanded, session, file, folder, text)
+
+  /** Adds the lines of the text to the problems of `body`. */
+  private[mitsuba] def withExcerpts[A](file: Path, text: Option[String])(body: => A): A =
+    try body
+    catch case e: SceneError => throw SceneError(excerpted(e.problems, file, text))
+
+  private def excerpted(problems: Vector[Problem], file: Path, text: Option[String]) =
+    Excerpts.fill(problems, Excerpts.sources(text.map(NamedText(file.toString, _))))
+
+  private[mitsuba] def translated(
+      expanded: Expanded,
+      session: Session,
+      file: Path,
+      folder: SceneFolder,
+      text: Option[String]
+  ): SceneDescription =
     val scene = Translation(session, file).result()
-    val (errors, warnings) = excerpted(session.problems).partition(_.severity == Severity.Error)
+    val (errors, warnings) =
+      excerpted(session.problems, file, text).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
       errors = errors,
@@ -51,7 +69,8 @@ object MitsubaScene:
   private[mitsuba] def observe(file: Path, folder: SceneFolder, text: String)(
       observe: Properties => Unit
   ): Unit =
-    val expanded = Expansion(file, folder, Map.empty, Some(text)).result()
+    val expanded =
+      Expansion(file, folder, Map.empty, Some(XmlFile.ofText(file.toString, text))).result()
     val session = Session(expanded, folder, keepGoing = true, observe = observe)
     val _ = Translation(session, file).result()
 

@@ -94,6 +94,8 @@ final class Session(
       case _ => ()
     plugins.toMap
 
+  for e <- expanded.elements if e.tag == "ref"; id <- e("id") do plugin(id, e.pos): Unit
+
   private var missingThings = 0
 
   /** Names of properties in the file, by position and by Mitsuba's name of today. */

@@ -9,8 +9,10 @@ import scala.collection.mutable
 /** Values that a user gives to `$NAME` in pbrt files. They are put in place before a file is split
   * into tokens, so columns in messages count them. pbrt itself has no parameters; other words with
   * a `$` stay as they are.
+  *
+  * @param usedElsewhere names that need no use here
   */
-final class Defines(values: Map[String, String]):
+final class Defines(values: Map[String, String], usedElsewhere: Set[String] = Set.empty):
   private val referenced = mutable.HashSet.empty[String]
   private val names = mutable.HashSet.empty[String]
 
@@ -28,9 +30,12 @@ final class Defines(values: Map[String, String]):
         val replaced = Defines.Piece.replaceAllIn(text, m => quoteReplacement(piece(m.matched)))
         Source(source.name, replaced.getBytes(ISO_8859_1))
 
+  /** Names that have taken their values. */
+  def usedNames: Set[String] = referenced.toSet
+
   /** @throws SceneError if a value is of a name that no file has */
   def requireUse(): Unit =
-    for name <- (values.keySet -- referenced).minOption do
+    for name <- (values.keySet -- referenced -- usedElsewhere).minOption do
       val help = Suggest.help(name, names.toSet -- referenced)
       val message = s"the scene has no parameter `$$$name`"
       throw SceneError(Problem.general(Code.SceneParameter, message, help))

@@ -4,7 +4,7 @@ import java.util.IdentityHashMap
 
 import scala.jdk.CollectionConverters.*
 
-/** Materials that are written in place and that no shape has so far. Mutable. */
+/** Materials that no shape has so far: those written in place, and undefined names. Mutable. */
 private[scenefile] final class IdleMaterials:
   // Millions of shapes ask
   private val numbers = IdentityHashMap[MaterialRef, Int]()
@@ -21,5 +21,4 @@ private[scenefile] final class IdleMaterials:
   def clear(): Unit = numbers.clear()
 
   /** In the order of their statements. */
-  def all: Vector[Declaration] =
-    numbers.asScala.toVector.sortBy(_._2).map(_._1).collect { case MaterialRef.Inline(d) => d }
+  def all: Vector[MaterialRef] = numbers.asScala.toVector.sortBy(_._2).map(_._1)

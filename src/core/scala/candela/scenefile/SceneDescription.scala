@@ -105,7 +105,8 @@ final case class TextureDescription(
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
   * @param text what was read instead of a file
-  * @param idleMaterials materials that are written in place, and that no shape has
+  * @param idleMaterials materials that are written in place, and names that were undefined where
+  *                      they stand, that no shape has
   * @param unfiled SHA-256 of its parts that are in no file, by name
   */
 final case class SceneDescription(
@@ -141,7 +142,7 @@ final case class SceneDescription(
     folder: SceneFolder = SceneFolder.Nowhere,
     unfiled: Vector[(String, String)] = Vector.empty,
     text: Option[NamedText] = None,
-    idleMaterials: Vector[Declaration] = Vector.empty
+    idleMaterials: Vector[MaterialRef] = Vector.empty
 ):
   /** Whether the camera sees no area lights and no sky. */
   def hidesEmitters: Boolean =

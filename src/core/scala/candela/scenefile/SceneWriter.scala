@@ -233,9 +233,8 @@ final class SceneWriter(
     )
     idle.markUsed(state.material)
     inObject match
-      case Some((_, group)) => group += described
-      case None => shapes += described
-    ()
+      case Some((_, group)) => group += described: Unit
+      case None => shapes += described: Unit
 
   def light(from: Named): Unit =
     val light = declare("LightSource", from, "light")
@@ -260,8 +259,9 @@ final class SceneWriter(
     changeState(_.copy(material = material))
 
   def namedMaterial(name: String, at: SourcePos): Unit =
-    val unique = state.scope.materials.getOrElse(name, name)
-    changeState(_.copy(material = MaterialRef.Named(unique, at)))
+    val material = new MaterialRef.Named(state.scope.materials.getOrElse(name, name), at)
+    if !names.isTaken("material", material.name) then idle.add(material)
+    changeState(_.copy(material = material))
 
   def makeNamedMaterial(from: Named): Unit =
     val material = noted(declareByType("Material", from, "material"))

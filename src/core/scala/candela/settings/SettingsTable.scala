@@ -106,7 +106,11 @@ object SettingsTable:
     option("dialect", "v2|v3|v4", "parse the scene as this pbrt version (default: auto-detected)")(
       _.reading.dialect
     )((s, d) => parse(s)(_.copy(dialect = Some(d)))),
-    list("define", "NAME=VALUE", "set $NAME in the scene's files; also -DNAME=VALUE")(
+    list(
+      "define",
+      "NAME=VALUE",
+      "set $NAME in the scene's files and in that of --camera; also -DNAME=VALUE"
+    )(
       _.reading.defines.toVector.sorted
     )((s, d) => parse(s)(r => r.copy(defines = r.defines + d)))(using TextForm.definition)
       .repeatable.short('D')
@@ -287,7 +291,7 @@ object SettingsTable:
     option(
       "camera",
       "FILE",
-      "a camera instead of the scene's: LookAt and Camera statements, or a Mitsuba scene's <sensor>"
+      "a camera instead of the scene's: LookAt and Camera statements, or a <sensor> of Mitsuba"
     )(_.reading.camera)((s, f) => parse(s)(_.copy(camera = Some(f))))(using TextForm.string)
       .explained(
         "For scenes of every format. pbrt's cameras are left-handed: for models and Mitsuba's " +

@@ -55,6 +55,19 @@ final class UnusedMaterialsSuite extends AnyFunSuite:
       assert(all.exists(_.message.contains(message)), s"$statement: $all")
       assert(all.forall(_.severity == Severity.Warning), s"$statement: $all")
 
+  test("a name of nothing is a warning, but in a shape of an object an error in v4"):
+    val undefined = "material `none` is not defined"
+    for dialect <- Vector(Dialect.V3, Dialect.V4) do
+      val surface = if dialect == Dialect.V4 then "diffuse" else "matte"
+      for rest <- Vector("", s"Material \"$surface\" Shape \"sphere\"") do
+        val all = told(s"NamedMaterial \"none\" $rest", dialect)
+        assert(all.map(_.message) == Vector(undefined), all)
+        assert(all.forall(p => p.severity == Severity.Warning && p.pos.exists(_.line == 5)))
+      val inObject =
+        told("ObjectBegin \"o\" NamedMaterial \"none\" Shape \"sphere\" ObjectEnd", dialect)
+      val severity = if dialect == Dialect.V4 then Severity.Error else Severity.Warning
+      assert(inObject.map(p => (p.message, p.severity)) == Vector((undefined, severity)), inObject)
+
   test("what is right is silent, and textures of materials that nothing has are known"):
     for
       statement <- Vector(
@@ -63,7 +76,9 @@ final class UnusedMaterialsSuite extends AnyFunSuite:
         "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [.1 .2 .3]\n" +
           "Material \"diffuse\" \"texture reflectance\" \"t\"",
         s"${named("\"diffuse\"")} MakeNamedMaterial \"b\" \"string type\" \"mix\" " +
-          "\"string materials\" [\"a\" \"a\"]"
+          "\"string materials\" [\"a\" \"a\"]",
+        s"${named("\"diffuse\"")} NamedMaterial \"a\"",
+        s"NamedMaterial \"a\" ${named("\"diffuse\"")}"
       )
     do assert(told(statement, Dialect.V4).isEmpty, statement)
 

@@ -46,8 +46,12 @@ class CameraFileSuite extends AnyFunSuite:
   private def written(folder: Path, name: String, text: String): Path =
     Files.writeString(folder.resolve(name), text)
 
-  private def read(scene: Path, camera: Option[Path] = None): SceneDescription =
-    val reading = ReadSettings(camera = camera.map(_.toString))
+  private def read(
+      scene: Path,
+      camera: Option[Path] = None,
+      defines: Map[String, String] = Map.empty
+  ): SceneDescription =
+    val reading = ReadSettings(camera = camera.map(_.toString), defines = defines)
     Render.read(scene, reading, BuildControl())
 
   private def pixels(description: SceneDescription): Seq[Float] =
@@ -106,6 +110,56 @@ class CameraFileSuite extends AnyFunSuite:
         same.camera.get.param("fov").get.floats.toSeq)
       val (a, b) = (found.worldToCamera.start.m, same.worldToCamera.start.m)
       for i <- 0 until 16 do assert(Math.abs(a(i) - b(i)) < 1e-14)
+
+  test("of a Mitsuba scene the first sensor is taken, and a warning names what is ignored"):
+    TempFolder.use: folder =>
+      val near = sensor("""<lookat origin="1,2,6" target="0,0.5,0" up="0,1,0"/>""", 30, "")
+      val far = sensor("""<lookat origin="0,0,9" target="0,0,0" up="0,1,0"/>""", 50, Film)
+      val scene = written(folder, "scene.xml", Mitsuba.replace("SENSOR", far))
+      def viewed(text: String) = read(scene, Some(written(folder, "camera.xml", text)))
+      val wanted = viewed(near)
+      val named = near.replace("</sensor>", "<ref id=\"f\"/></sensor>")
+      val all = viewed(s"""<?xml version="1.0"?>
+        |<scene version="3.0.0">$Film
+        |<shape type="ply"><string name="filename" value="none.ply"/></shape>$named$far
+        |</scene>""".stripMargin.replace("<film ", "<film id=\"f\" "))
+      assert(all.worldToCamera == wanted.worldToCamera)
+      assert(all.camera.get.param("fov").get.floats.toSeq == Seq(30f))
+      val added = all.warnings.diff(wanted.warnings)
+      assert(added.map(_.message) ==
+        Vector("of this file only the first <sensor> is taken; ignored: <sensor>, <shape>"))
+      assert(added.head.pos.get.line == 4 && wanted.warnings == read(scene).warnings)
+
+  test("the user's values are those of the camera, too, and either file may have them"):
+    TempFolder.use: folder =>
+      val world = this.world("v4")
+      val size = Map("a" -> "20", "s" -> "3")
+      val own = written(folder, "scene.pbrt", s"$Views$world Scale $$s $$s $$s\n")
+      val shared = written(folder, "shared.pbrt", s"$Views$world Scale $$a $$s $$s\n")
+      val plain = written(folder, "plain.pbrt", Views + world)
+      def text(angle: String) = s"Rotate $angle 0 1 0\nCamera \"perspective\""
+      val camera = Some(written(folder, "camera.pbrt", text("$a")))
+      val wanted = read(plain, Some(written(folder, "rotated.pbrt", text("20")))).worldToCamera
+      for scene <- Vector(own, shared) do
+        assert(read(scene, camera, size).worldToCamera == wanted)
+      assert(read(plain, camera, size - "s").worldToCamera == wanted)
+      def told(scene: Path) = intercept[SceneError](read(scene, camera, size)).problems.head.message
+      assert(told(plain) == "the scene has no parameter `$s`")
+
+      val spheres = Mitsuba.replace("SENSOR", sensor("", 50, Film))
+      val xml = written(folder, "scene.xml", spheres)
+      val obj = written(folder, "model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+      for scene <- Vector(xml, obj) do
+        assert(read(scene, camera, size - "s").worldToCamera == wanted)
+        assert(told(scene) == "the scene has no parameter `$s`")
+      val turned = sensor("""<rotate y="1" angle="$a"/>""", 50, "")
+      val sensors = Some(written(folder, "camera.xml", turned))
+      val scaled = spheres.replace("x=\"2\"", "x=\"$s\"")
+      for scene <- Vector(xml, written(folder, "scaled.xml", scaled)) do
+        val values = if scene == xml then size - "s" else size
+        assert(read(scene, sensors, values).worldToCamera ==
+          read(scene, Some(written(folder, "by.xml", turned.replace("$a", "20"))), values - "a")
+            .worldToCamera)
 
   test("models take statements"):
     TempFolder.use: folder =>
@@ -169,6 +223,8 @@ class CameraFileSuite extends AnyFunSuite:
     assert(problem("<sensor type=\"perspective\"/>") == pbrts)
     val mitsubas = Mitsuba.replace("SENSOR", sensor("", 50, Film))
     assert(problem("<bsdf type=\"diffuse\"/>", mitsubas) ==
+      "camera.pbrt:1:1: expected <sensor> or <scene>, found <bsdf>")
+    assert(problem("<scene version=\"3.0.0\"><integrator type=\"path\"/></scene>", mitsubas) ==
       "camera.pbrt:1:1: the scene has no sensor (add <sensor type=\"perspective\">)")
     assert(problem(
       "\n<sensor type=\"perspective\">\n<flaot name=\"fov\" value=\"3\"/></sensor>",

@@ -60,6 +60,8 @@ class MitsubaSceneSuite extends AnyFunSuite:
       problems("<shape type=\"sphere\">\n<ref id=\"a\"/></shape>").head ==
         "2:1: no object has the id `a`"
     )
+    assert(problems("\n<bsdf type=\"diffuse\" id=\"a\"/>\n<ref id=\"a\"/><ref id=\"b\"/>") ==
+      Vector("3:14: no object has the id `b` (did you mean `a`?)"))
 
   test("types that Mitsuba has and Candela lacks are warnings that name the substitute"):
     assert(

@@ -30,9 +30,10 @@ abstract class ModelFormat private[models] (name: String, suffixes: Vector[Strin
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
-      text: Option[String]
+      text: Option[String],
+      usedByCamera: Set[String]
   ): SceneDescription =
-    Defines(reading.defines).requireUse()
+    Defines(reading.defines, usedByCamera).requireUse()
     model(file, within, reading, world, text)
 
   def digest(text: String): String = Sha256.of(text)

@@ -1,7 +1,7 @@
 package candela.cli.commands
 
 import candela.base.Figures
-import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.diagnostics.{Problem, SceneError, Severity}
 import candela.io.WholeFile
 import candela.build.TextureValues
 import candela.cli.files.{FileRegister, FilmName, Output, OutputFiles}
@@ -22,7 +22,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
   def run(): ExitCode = report.guarded(Render.withinLimits()(convert()))
 
   private def convert(): ExitCode =
-    val target = options.outfiles.headOption.map(OutputFiles.path)
+    val target = options.outfiles.headOption.map: name =>
+      OutputFiles.ofText(name, "convert writes scenes of pbrt", "pbrt")(!_.hasDialects)
     val output = Output(target.toVector, "scene", options.files.head)
     val register = FileRegister()
     val folder =
@@ -37,9 +38,6 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)
-    for path <- target; format <- SceneFormat.named(path) if !format.hasDialects do
-      val message = s"`$path` has a name of ${format.name}; convert writes scenes of pbrt"
-      throw SceneError(Problem.general(Code.OptionMisfit, message, Some("name it .pbrt")))
     val film = FilmName.problem(scene)
     for p <- film if p.severity == Severity.Error do throw SceneError(p)
     val to = options.to.getOrElse(scene.dialect.base)

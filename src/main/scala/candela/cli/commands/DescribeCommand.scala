@@ -25,7 +25,8 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
   private val text = ReferenceText(described, terminal.columns)
 
   def run(): ExitCode = report.guarded:
-    val outputs = options.outfiles.map(OutputFiles.path)
+    val outputs = options.outfiles.map: name =>
+      OutputFiles.ofText(name, "describe writes text", "md")(_ => true)
     FileRegister().write(Output(outputs, "reference", "Candela"))
     val lines =
       options.pages.lastOption match

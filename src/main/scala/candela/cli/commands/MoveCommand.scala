@@ -30,6 +30,7 @@ final class MoveCommand(
   private val cancellation = Cancellation()
 
   def run(): ExitCode = report.guarded:
+    val _ = file // refused before the scene is built
     terminal.interrupts.during(cancellation):
       val stages = if options.quiet then BuildStages.Silent else StageLine(terminal)
       val control = options.building.copy(stages = stages)
@@ -61,10 +62,10 @@ final class MoveCommand(
             page.await(cancellation.isRequested)
       ExitCode.Done
 
-  private val file: Path =
+  private lazy val file: Path =
     val name = options.outfiles.headOption
       .getOrElse(s"${SceneFormat.stem(OutputFiles.path(scene).getFileName)}-camera.pbrt")
-    OutputFiles.path(name)
+    OutputFiles.ofText(name, "move writes statements of pbrt", "pbrt")(!_.hasDialects)
 
   /** Nothing of the scene is written over, but the camera with which it began. */
   private def checkOutput(sources: Vector[Path]): Unit =

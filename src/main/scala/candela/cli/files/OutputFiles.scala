@@ -4,10 +4,11 @@ import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.FileName
 import candela.aov.{ImageLayer, Layer, NamedLayer, StrategyLayer}
 import candela.build.film.FilmRecipe
-import candela.cli.options.FilmOptions
+import candela.cli.options.{FilmOptions, Words}
 import candela.image.{Contents, ImageError, OutputFormat}
-import candela.job.{ImageName, Prepared, StrategyFiles}
+import candela.job.{ImageName, Prepared, SceneFormat, StrategyFiles}
 import candela.render.RenderPlan
+import candela.render.storage.FilmFile
 
 import java.io.IOException
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -161,6 +162,25 @@ object OutputFiles:
   /** What an image says of those that it was made of: it is the same, wherever they are. */
   def sources(paths: Vector[Path]): (String, String) =
     (if paths.size == 1 then "image" else "images") -> paths.map(_.getFileName).mkString(", ")
+
+  /** `name` as the path of a text, which must not replace an image, a film or another scene.
+    *
+    * @param purpose   who writes what
+    * @param isForeign whether scenes of the format are not such texts
+    */
+  def ofText(name: String, purpose: String, suffix: String)(
+      isForeign: SceneFormat => Boolean
+  ): Path =
+    val file = path(name)
+    val ending = FileName.suffix(file)
+    val kind =
+      if ending == FilmFile.Suffix then Some("a film file")
+      else if Words.imageSuffixes.contains(ending) then Some("an image")
+      else SceneFormat.named(file).filter(isForeign).map(f => s"a file of ${f.name}")
+    for k <- kind do
+      val message = s"`$file` is the name of $k; $purpose"
+      throw SceneError(Problem.general(Code.UnknownFormat, message, Some(s"name it .$suffix")))
+    file
 
   /** `name` as a path. */
   def path(name: String): Path =

@@ -25,7 +25,8 @@ private[cli] object Manual:
       |names: `x.exr,x.png` for both.
       |
       |Images are deterministic: they depend on the scene, the seed and the sample count, not on the
-      |number of threads, and equal images are equal files, byte for byte.
+      |number of threads, and equal images are equal files, byte for byte, but for the entry
+      |`rendering` of `--frames` and `--skip-done`: the digest that tells a second run what is done.
       |
       |Every file is replaced when its next version is complete, and never by an image without
       |samples: a full disk or a killed run leaves what was there. Links are followed; pipes and

@@ -36,9 +36,11 @@ private[candela] object Words:
   val scenes: Words = Files(SceneFormat.all.flatMap(_.suffixes).flatMap(s => Vector(s, s"$s.gz")))
   val films: Words = Files(Vector(FilmFile.Suffix))
 
-  val images: Words =
+  /** Those of images that are written or read. */
+  val imageSuffixes: Vector[String] =
     val written = OutputFormat.all.flatMap(f => f.suffix +: f.aliases)
-    Files((written ++ Vector("hdr", "bmp", "gif", "ppm", "psd", FilmFile.Suffix)).distinct)
+    (written ++ Vector("hdr", "bmp", "gif", "ppm", "psd")).distinct
+  val images: Words = Files(imageSuffixes :+ FilmFile.Suffix)
 
   /** The value of an option, by what its help calls it; None: it has no value. */
   def of(option: OptionDef[?, Options]): Option[Words] = option.valueName.map:

@@ -50,8 +50,26 @@ class ConvertCommandSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val out = folder.resolve("b.xml")
       val (code, captured) = run(scene(folder).toString, "--to", "v4", "--outfile", out.toString)
-      assert(code == 1 && captured.err.contains("has a name of Mitsuba"), captured.err)
+      assert(code == 1 && captured.err.contains("is the name of a file of Mitsuba"), captured.err)
       assert(TempFolder.names(folder) == Set("a.pbrt"))
+
+  test("an image, a film and a model are not replaced by text"):
+    TempFolder.use: folder =>
+      val input = scene(folder).toString
+      for
+        (name, kind) <- Vector(
+          "p.exr" -> "an image",
+          "p.JPG" -> "an image",
+          "p.hdr" -> "an image",
+          "p.film" -> "a film file",
+          "p.glb" -> "a file of glTF"
+        )
+      do
+        val file = Files.writeString(folder.resolve(name), "kept")
+        val (code, captured) = run(input, "--outfile", file.toString)
+        val refusal = s"error: `$file` is the name of $kind; convert writes scenes of pbrt [E0106]"
+        assert(code == 1 && captured.err.startsWith(s"$refusal\n name it .pbrt"), captured.err)
+        assert(Files.readString(file) == "kept")
 
   test("a missing include is an error, without the advice to use an option that convert lacks"):
     TempFolder.use: folder =>

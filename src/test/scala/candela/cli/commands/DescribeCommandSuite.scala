@@ -140,3 +140,10 @@ class DescribeCommandSuite extends AnyFunSuite:
       val file = folder.resolve("reference.md")
       assert(printed(s"--markdown --outfile $file").isEmpty)
       assert(Files.readString(file) == printed("--markdown"))
+
+  test("it replaces no image and no scene"):
+    TempFolder.use: folder =>
+      for name <- Vector("p.exr", "p.film", "p.pbrt", "p.gltf") do
+        val file = Files.writeString(folder.resolve(name), "kept")
+        assert(refused(s"--markdown -o $file").contains("; describe writes text [E0106]"))
+        assert(Files.readString(file) == "kept")

@@ -104,3 +104,7 @@ class MoveCommandSuite extends AnyFunSuite:
       val (code, printed) = Captured.run("move", s"$scene", "--outfile", s"$scene", "--watch", "0")
       assert(code == 1)
       assert(printed.err.contains(s"the camera would be written over `$scene`"), printed.err)
+
+  test("the camera is not written over an image"):
+    val (code, printed) = Captured.run("move", "none.pbrt", "--outfile", "a.exr")
+    assert(code == 1 && printed.err.startsWith("error: `a.exr` is the name of an image; "))
