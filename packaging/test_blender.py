@@ -464,6 +464,16 @@ def on_floor(made, kind, factor=0.5):
     return tree
 
 
+def emitting(made):
+    """Adds light to the floor."""
+    tree = on_floor(made, "Emission", None)
+    output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
+    add = tree.nodes.new("ShaderNodeAddShader")
+    tree.links.new(output.inputs[0].links[0].from_socket, add.inputs[0])
+    tree.links.new(tree.nodes["Principled BSDF"].outputs[0], add.inputs[1])
+    tree.links.new(add.outputs[0], output.inputs[0])
+
+
 def unpainted(made):
     """A ball without a material, and one with an empty slot."""
     made.ball.data.materials.clear()
@@ -704,6 +714,7 @@ SCENES = {
     "tinted glass": lambda: glass(Base_Color=(0.8, 0.4, 0.2, 1)),
     "partial glass": lambda: glass(Base_Color=(0.5, 0.5, 0.5, 1), Transmission_Weight=0.5),
     "index of refraction": lambda: principled(lit(world=1, lens=90), Roughness=0.2, IOR=3),
+    "emission, added": lambda: changed(lit(), emitting),
     "another output": lambda: changed(lit(), with_output),
     "muted nodes": lambda: changed(lit(), muted),
     "no image": lambda: changed(lit(), without_image),
@@ -831,6 +842,7 @@ class Rendering(unittest.TestCase):
                 ("no program", 0o644, "can't start .*program: Permission denied"),
                 ("no program", 0o755, "can't start .*program: Exec format error"),
                 ("#!/bin/sh\nexit 3", 0o755, "has ended with exit code 3"),
+                ("#!/bin/sh\nexit 0", 0o755, "Program in the add-on's preferences: .*program"),
             ):
                 if text is not None:
                     Path(file).write_text(text)
@@ -1027,6 +1039,26 @@ class Exporting(unittest.TestCase):
             papered(made)
             next(n for n in tree.nodes if n.type == "TEX_IMAGE").interpolation = "Cubic"
 
+        def hot(made, tree, shader):
+            node = image_node(made, 2)[1]
+            node.image = bpy.data.images.new("hot", 2, 2, float_buffer=True)
+            node.image.pixels.foreach_set([2.0] * 16)
+            tree.links.new(node.outputs[0], shader.inputs["Emission Color"])
+
+        def tiled_image(made, tree, shader):
+            node = image_node(made, 2)[1]
+            node.image = bpy.data.images.new("tiles", 2, 2, tiled=True)
+            tree.links.new(node.outputs[0], shader.inputs["Emission Color"])
+
+        def bent(made, tree, shader):
+            linked("NormalMap", "Normal")(made, tree, shader)
+            next(n for n in tree.nodes if n.type == "NORMAL_MAP").inputs[1].default_value[0] = 0.8
+
+        def metal(made, tree, shader):
+            shader.inputs["Metallic"].default_value = 0.5
+            shader.inputs["Specular Tint"].default_value = (1, 0.5, 1, 1)
+            shader.distribution = "MULTI_GGX"
+
         def sequence(made, tree, shader):
             papered(made)
             image = next(n for n in tree.nodes if n.type == "TEX_IMAGE").image
@@ -1065,6 +1097,11 @@ class Exporting(unittest.TestCase):
             (lambda made, *_: without_image(made), "node 'Image Texture': it has no image"),
             (tinted_glass, lost("a linked color of glass")),
             (cubic, "the interpolation of node 'Image Texture' is linear, not Cubic"),
+            (hot, "image 'hot' is rendered with values of at most 1"),
+            (tiled_image, "the tiles of image 'tiles' are no files of PNG, JPEG or WebP; left out"),
+            (linked("NormalMap", "Normal"), None),
+            (bent, unread("'Normal Map'")),
+            (lambda made, *_: emitting(made), None),
             (sequence, "image 'wood' is not supported as a sequence"),
             (within_world, unread("'Normal Map'")),
             (of_object, unread("'Attribute'")),
@@ -1086,6 +1123,10 @@ class Exporting(unittest.TestCase):
             with self.subTest(text):
                 expected = [f"material 'Plane': {text}"] if text else []
                 self.assertEqual(warnings(change), expected)
+
+        with self.subTest("metal"):
+            texts = [lost(name) for name in ("Multiscatter GGX", "Specular Tint of a metal")]
+            self.assertEqual(warnings(metal), [f"material 'Plane': {text}" for text in texts])
 
     def test_samples_are_rounded_up_to_a_power_of_two(self):
         made = lit()
@@ -1248,6 +1289,8 @@ class Exporting(unittest.TestCase):
         self.assertEqual(warnings("Base Color", space="Non-Color", alpha=1), [encoded])
         self.assertEqual(warnings("Roughness", alpha=1), [linear])
         self.assertEqual(warnings("Roughness", space="Non-Color", alpha=1), [])
+        node.image = image = bpy.data.images.new("bright", 2, 2, float_buffer=True)
+        self.assertEqual(warnings("Base Color", space="Linear Rec.709", alpha=1), [])
 
     def test_what_volumes_lose_is_named(self):
         def warnings(make=cloud, grid=None, **inputs):

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from . import export, settings, world
-from .candela import CandelaError, load
+from .candela import CandelaError, InternalError, load
 from .candela._session import cancel, close, execute
 
 _IMAGE = "image.npz"
@@ -46,7 +46,10 @@ class CandelaRenderEngine(bpy.types.RenderEngine):
         except Cancelled:
             pass
         except (settings.NoProgram, export.ExportError, CandelaError) as error:
-            self.report({"ERROR"}, str(error))
+            text = str(error)
+            if isinstance(error, InternalError):
+                text += f"\nProgram in the add-on's preferences: {os.environ['CANDELA_PROGRAM']}"
+            self.report({"ERROR"}, text)
         except Exception as error:  # Blender may crash if it receives one
             traceback.print_exc()
             self.report({"ERROR"}, f"{type(error).__name__}: {error}")
@@ -197,7 +200,7 @@ class _Rendering:
 
     def _named_error(self, error):
         errors = [self._named(p) for p in error.problems if p.severity == "error"]
-        return CandelaError("\n".join(errors) or str(error), error.problems, error.code)
+        return type(error)("\n".join(errors) or str(error), error.problems, error.code)
 
     def _show(self, image: Path, shown):
         """Shows a partial image that was written since; its time."""

@@ -10,6 +10,7 @@ import bpy
 from mathutils import Matrix
 
 from .nodes import of_surface, output_of, tree_of
+from .surfaces import has_lost_tiles
 
 # From z up to y up
 UPRIGHT = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -79,10 +80,10 @@ class Meshes:
         return bpy.data.meshes.new_from_object(instanced)
 
     def _material(self, evaluated):
-        """The original, or a copy with the values of this time and Cycles' output."""
+        """The original, or a copy with the values of this time, as the exporter needs it."""
         original = evaluated.original
         tree = tree_of(original)
-        if tree is not None and (tree.animation_data is not None or _has_other_output(tree)):
+        if tree is not None and (tree.animation_data is not None or _is_misread(tree)):
             if original.name not in self._copies:
                 self._copies[original.name] = _still(original, evaluated)
             original = self._copies[original.name]
@@ -95,10 +96,11 @@ class Meshes:
         bpy.data.batch_remove([*objects, *data, *self._copies.values(), self.scene])
 
 
-def _has_other_output(tree):
-    """Whether the exporter reads another output than Cycles."""
+def _is_misread(tree):
+    """Whether the exporter reads another output than Cycles, or fails to read tiles."""
     output = output_of(tree)
-    return output is not None and not output.is_active_output
+    is_other = output is not None and not output.is_active_output
+    return is_other or any(has_lost_tiles(node) for node in tree.nodes)
 
 
 def _still(original, evaluated):
@@ -113,6 +115,8 @@ def _still(original, evaluated):
         for socket, animated in sockets:
             if hasattr(socket, "default_value"):
                 socket.default_value = animated.default_value
+    for node in filter(has_lost_tiles, list(made.node_tree.nodes)):
+        made.node_tree.nodes.remove(node)
     return made
 
 

@@ -15,9 +15,10 @@ _NODES = {
 # Inputs of Principled BSDF that glTF lacks, with the values that have no effect
 _INPUTS = {"Diffuse Roughness": 0, "Subsurface Weight": 0, "Thin Film Thickness": 0}
 _COAT_INPUTS = {"Coat IOR": 1.5, "Coat Tint": (1, 1, 1, 1)}
+_FLAT = (0.5, 0.5, 1)  # of a normal map
 _CLIPS = ("ROUND", "SUBTRACT", "LESS_THAN", "GREATER_THAN")  # of alpha
 _FACTORS = ("RGB", "VALUE", "ATTRIBUTE", "VERTEX_COLOR")
-_CHANGING = ("SEQUENCE", "MOVIE", "TILED")
+_CHANGING = ("SEQUENCE", "MOVIE")
 _DEPTHS_WITH_ALPHA = (32, 64, 128)  # bits of a pixel
 
 
@@ -89,7 +90,8 @@ def _check_material(material, warn):
                 tell(text)
         for name in _lost_inputs(node) if node.type == "BSDF_PRINCIPLED" else ():
             tell(f"{name} of node '{node.name}' is not supported")
-    for name, change in sorted({*_other_alphas(nodes), *_other_spaces(nodes)}):
+    changes = (_other_alphas(nodes), _other_spaces(nodes), _clipped(nodes))
+    for name, change in sorted({each for found in changes for each in found}):
         tell(f"image '{name}' is rendered with {change}")
 
 
@@ -122,7 +124,8 @@ def _is_read(node, name):
     if node.type == "TEX_IMAGE":
         return node.projection == "FLAT" and node.extension != "CLIP"
     if node.type == "NORMAL_MAP":
-        return node.space == "TANGENT"
+        color = unlinked(node.inputs["Color"])
+        return node.space == "TANGENT" and (color is None or color[:3] == _FLAT)
     if node.type in ("ATTRIBUTE", "VERTEX_COLOR"):
         is_global = getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY"
         return name in ("Base Color", "Alpha") and not is_global
@@ -139,6 +142,8 @@ def _lost_image(node):
     image = node.image
     if image is not None and image.source in _CHANGING:
         yield f"image '{image.name}' is not supported as a {image.source.lower()}"
+    elif surfaces.has_lost_tiles(node):
+        yield f"the tiles of image '{image.name}' are no files of PNG, JPEG or WebP; left out"
     elif surfaces.is_missing(node):
         what = f"image '{image.name}' can't be read" if image else "it has no image"
         yield f"node '{node.name}': {what}"
@@ -160,6 +165,13 @@ def _lost_inputs(node):
         yield "a linked IOR"
     elif unlinked(node.inputs["IOR"]) < 1:
         yield "an IOR below 1"
+    if (unlinked(node.inputs["Metallic"]) or 0) > 0:
+        is_rough = (unlinked(node.inputs["Roughness"]) or 0) > 0.5
+        if is_rough and node.distribution == "MULTI_GGX":
+            yield "Multiscatter GGX"
+        tint = unlinked(node.inputs["Specular Tint"])
+        if tint is None or tint[:3] != (1, 1, 1):
+            yield "Specular Tint of a metal"
     tint = surfaces.lost_tint(node)
     if tint is not None:
         yield tint
@@ -177,10 +189,22 @@ def _other_alphas(nodes):
             yield image.name, f"alpha 'Channel Packed', not '{modes[image.alpha_mode].name}'"
 
 
+def _clipped(nodes):
+    """Images with values that glTF lacks, and what they are rendered with."""
+    for node in nodes:
+        image = node.image if node.type == "TEX_IMAGE" else None
+        if image is not None and image.is_float and (_pixels(image) > 1).any():
+            yield image.name, "values of at most 1"
+
+
 def _is_transparent(image):
+    return bool((_pixels(image)[3::4] < 1).any())
+
+
+def _pixels(image):
     pixels = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(pixels)
-    return bool((pixels[3::4] < 1).any())
+    return pixels
 
 
 def _other_spaces(nodes):
@@ -192,6 +216,9 @@ def _other_spaces(nodes):
                 if image is None or socket.name == "Alpha":
                     continue
                 space = image.colorspace_settings
+                is_converted = image.is_float and image.source == "GENERATED"
+                if is_converted and socket.type == "RGBA" and not space.is_data:
+                    continue
                 is_linear = space.is_data or space.name.startswith("Linear")
                 if is_linear if socket.type == "RGBA" else not is_linear:
                     expected = "sRGB" if socket.type == "RGBA" else "Non-Color"

@@ -1,6 +1,9 @@
 """Surfaces that Blender's glTF exporter writes otherwise than Cycles renders them."""
 
+import os
 from typing import NamedTuple
+
+import bpy
 
 from .nodes import group_output, output_of, source, tree_of, unlinked
 
@@ -11,6 +14,7 @@ _MISSING = [1.0, 0.0, 1.0]
 _SPECULAR = "KHR_materials_specular"
 _TRANSMISSION = "KHR_materials_transmission"
 _USUAL_INDEX = 1.5
+_TILES = (".jpeg", ".jpg", ".png", ".webp")
 # Shaders that the exporter reads
 EXPORTED = ("BSDF_PRINCIPLED", "EMISSION")
 
@@ -36,6 +40,12 @@ def of(material):
         return None
     if node.type == "BSDF_TRANSPARENT":
         return Surface(None, 0.0, (node,))
+    if node.type == "ADD_SHADER":
+        added = {each.type: each for each in map(_entered, map(source, node.inputs)) if each}
+        base = added.get("BSDF_PRINCIPLED")
+        # The exporter reads the light of one of them
+        if "EMISSION" in added and base and unlinked(base.inputs["Emission Strength"]) == 0:
+            return Surface(base, 1.0, (node,))
     factor = unlinked(node.inputs[0]) if node.type == "MIX_SHADER" else None
     if factor is not None:
         factor = min(max(factor, 0.0), 1.0)
@@ -58,6 +68,16 @@ def _entered(node):
 def is_missing(node):
     """Whether the node is an image texture without an image that can be read."""
     return node.type == "TEX_IMAGE" and (node.image is None or not all(node.image.size))
+
+
+def has_lost_tiles(node):
+    """Whether the node is a texture of tiles that the exporter can't read."""
+    image = node.image if node.type == "TEX_IMAGE" else None
+    if image is None or image.source != "TILED":
+        return False
+    path = bpy.path.abspath(image.filepath_raw, library=image.library)
+    tiles = [path.replace("<UDIM>", str(tile.number)) for tile in image.tiles]
+    return not path.lower().endswith(_TILES) or not all(map(os.path.isfile, tiles))
 
 
 def unassigned():
