@@ -1128,6 +1128,15 @@ class Exporting(unittest.TestCase):
             texts = [lost(name) for name in ("Multiscatter GGX", "Specular Tint of a metal")]
             self.assertEqual(warnings(metal), [f"material 'Plane': {text}" for text in texts])
 
+    def test_glass_of_an_open_mesh_is_thin(self):
+        made = glass()
+        made.floor.data.materials[0] = made.ball.data.materials[0]
+        model, _ = made.export()
+        for mesh in model["meshes"]:
+            material = model["materials"][mesh["primitives"][0]["material"]]
+            is_thin = "KHR_materials_volume" not in material["extensions"]
+            self.assertEqual(is_thin, mesh["name"] == "Plane", mesh)
+
     def test_samples_are_rounded_up_to_a_power_of_two(self):
         made = lit()
         for samples, expected in ((1, "1"), (48, "64"), (64, "64")):

@@ -24,6 +24,13 @@ class _Export:
         self.names, self.materials, self.warn = found.names, found.materials, warn
         self.unassigned = None  # the material of what has none
         self.failure = None  # the exporter only logs exceptions of hooks
+        self._thin = {}
+
+    def thin(self, material):
+        """The material for a mesh that is open: light would stay within it."""
+        if surfaces.is_filled(material) and id(material) not in self._thin:
+            self._thin[id(material)] = surfaces.thin(material)
+        return self._thin.get(id(material), material)
 
 
 _current = None
@@ -63,10 +70,14 @@ def _add_to_material(gltf_material, blender_material):
 
 def _add_to_mesh(mesh, blender_mesh):
     mesh.name = _current.names[blender_mesh.name]
+    slots = [each and _current.materials[each.name].name for each in blender_mesh.materials]
+    is_open = {slots[k] for k in geometry.open_slots(blender_mesh) if k < len(slots)}
     for primitive in mesh.primitives:
         if primitive.material is None:
             _current.unassigned = _current.unassigned or surfaces.unassigned()
             primitive.material = _current.unassigned
+        elif primitive.material.name in is_open:
+            primitive.material = _current.thin(primitive.material)
 
 
 def _extras(name, fields):

@@ -7,6 +7,7 @@ hidden or excluded are evaluated in it.
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 from mathutils import Matrix
 
 from .nodes import of_surface, output_of, tree_of
@@ -118,6 +119,17 @@ def _still(original, evaluated):
     for node in filter(has_lost_tiles, list(made.node_tree.nodes)):
         made.node_tree.nodes.remove(node)
     return made
+
+
+def open_slots(mesh):
+    """The slots of the materials of faces with an edge that no other face has."""
+    edges = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", edges)
+    is_open = np.bincount(edges, minlength=len(mesh.edges))[edges] == 1
+    sizes, slots = (np.empty(len(mesh.polygons), np.int32) for _ in range(2))
+    mesh.polygons.foreach_get("loop_total", sizes)
+    mesh.polygons.foreach_get("material_index", slots)
+    return set(np.repeat(slots, sizes)[is_open].tolist())
 
 
 def _drop_maps(mesh, materials):

@@ -1,6 +1,7 @@
 """Surfaces that Blender's glTF exporter writes otherwise than Cycles renders them."""
 
 import os
+from copy import copy
 from typing import NamedTuple
 
 import bpy
@@ -13,6 +14,7 @@ _DEFAULT = (0.8, 0.8, 0.8)
 _MISSING = [1.0, 0.0, 1.0]
 _SPECULAR = "KHR_materials_specular"
 _TRANSMISSION = "KHR_materials_transmission"
+_VOLUME = "KHR_materials_volume"
 _USUAL_INDEX = 1.5
 _TILES = (".jpeg", ".jpg", ".png", ".webp")
 # Shaders that the exporter reads
@@ -130,7 +132,7 @@ def _mend_glass(gltf_material, shader):
     weight = fields.get("transmissionFactor", 0.0)
     if not weight:
         return
-    _extend(gltf_material, "KHR_materials_volume", {"thicknessFactor": 1.0})
+    _extend(gltf_material, _VOLUME, {"thicknessFactor": 1.0})
     if not _is_constant(shader):
         return
     pbr = gltf_material.pbr_metallic_roughness
@@ -141,6 +143,18 @@ def _mend_glass(gltf_material, shader):
     share = sum(c**0.5 for c in color) / (sum(mixed) or 1.0)
     fields["transmissionFactor"] = min(weight * share, 1.0)
     pbr.base_color_factor = [*mixed, alpha]
+
+
+def is_filled(gltf_material):
+    """Whether light is refracted into it."""
+    return bool(_fields(gltf_material, _VOLUME))
+
+
+def thin(gltf_material):
+    """A copy that light passes straight."""
+    made = copy(gltf_material)
+    made.extensions = {k: v for k, v in made.extensions.items() if k != _VOLUME}
+    return made
 
 
 def _passed(shader):
