@@ -202,10 +202,10 @@ class SceneSizeSuite extends AnyFunSuite:
 
   test("a scene that does not fit is refused at once, with its greatest parts"):
     TempFolder.use: folder =>
-      // Whatever is read of the mesh would be an error
+      // Whatever is read of the mesh would be an error; the file could hold it
       val header = "ply\nformat ascii 1.0\nelement vertex 1000000\nproperty float x\n" +
         "property float y\nproperty float z\nelement face 2000000\n" +
-        "property list uchar int vertex_indices\nend_header\nnone\n"
+        "property list uchar int vertex_indices\nend_header\nnone\n" + " " * 2_000_000
       Files.writeString(folder.resolve("a.ply"), header): Unit
       val scene = parsed(Sky + "Shape \"plymesh\" \"string filename\" \"a.ply\"\n", folder)
       def refused(heap: Long): SceneError =
