@@ -44,7 +44,7 @@ class GoalFilmsSuite extends AnyFunSuite:
         assert(samples(f, "b.exr") > 4)
         val out = f.render("--error", "0.03", "--spp", "5", "--outfile", f("c.exr"))
         assert(samples(f, "c.exr") == 5)
-        val why = "all 5 samples per pixel are taken; a larger --spp, or none, allows more"
+        val why = "all 5 samples per pixel are taken [E1104]\n a larger --spp, or none, allows more"
         assert(out.contains(why))
 
   test("an image that ended by a goal is that of as many samples"):
