@@ -197,6 +197,7 @@ def _extend(gltf_material, name, fields):
 def _paint(gltf_material, color, roughness=1.0, specular=0.0):
     """Makes the exported material a dielectric of this color, by default diffuse."""
     from io_scene_gltf2.io.com.gltf2_io import MaterialPBRMetallicRoughness
+
     rgba = [*(min(max(c, 0.0), 1.0) for c in color), 1.0]
     gltf_material.pbr_metallic_roughness = MaterialPBRMetallicRoughness(
         rgba, None, None, None, 0.0, None, roughness

@@ -56,7 +56,6 @@ class CandelaError(Exception):
         self.line = first.line if first else None
         self.column = first.column if first else None
 
-
     def renamed(self, old: str, new: str) -> "CandelaError":
         """The same about a file that has another name for the user."""
         problems = tuple(

@@ -83,11 +83,9 @@ private[image] object ExrDecoder:
         loop(parts.size)(i => InitEXRImage(images.get(i)))
         check(LoadEXRMultipartImageFromMemory(images, pointers, file, error), error)
         try
-          sources.foldLeft(0): (first, source) =>
-            val (i, order) = source
+          val firsts = sources.scanLeft(0)(_ + _._2.length)
+          for ((i, order), first) <- sources.zip(firsts) do
             gather(images.get(i), header(i), parts(i), order, target, first)
-            first + order.length
-          : Unit
         finally loop(parts.size)(i => free(images.get(i)))
       finally images.free()
     finally

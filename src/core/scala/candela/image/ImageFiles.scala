@@ -3,7 +3,7 @@ package candela.image
 import candela.base.{ByteCount, JavaHeap}
 import candela.diagnostics.Code
 import candela.io.{FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
-import java.io.IOException
+import java.io.{IOException, InputStream}
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.ByteBuffer
 import java.nio.file.{Files, NoSuchFileException, Path}
@@ -106,18 +106,19 @@ object ImageFiles:
   /** What is not read of an EXR file of several parts, or could be read otherwise. */
   def partsRemark(path: Path): Option[String] =
     // A pipe is read once
-    if !Files.isRegularFile(path) then None
-    else
-      val start = Using.resource(Files.newInputStream(path))(_.readNBytes(HeadBytes))
-      Option.when(start.startsWith(ExrMark))(Exr.remark(start)).flatten.map(r => s"$path: $r")
+    Option.when(Files.isRegularFile(path))(exrRemark(Files.newInputStream(path))).flatten
+      .map(remark => s"$path: $remark")
+
+  /** @param file is closed */
+  private def exrRemark(file: InputStream): Option[String] =
+    val start = Using.resource(file)(_.readNBytes(HeadBytes))
+    Option.when(start.startsWith(ExrMark))(Exr.remark(start)).flatten
 
   /** How pbrt-v4 reads the file differently, if it does; or what of it is missing. */
   def remark(file: InputFile): Option[(Code, String)] =
     val suffix = FileName.suffix(file.path)
     val note =
-      if suffix == "exr" then
-        val start = Using.resource(file.again())(_.readNBytes(HeadBytes))
-        Exr.remark(start).map(Code.ImageContents -> _)
+      if suffix == "exr" then exrRemark(file.again()).map(Code.ImageContents -> _)
       else if !Remarkable(suffix) then None
       else
         val size = file.size

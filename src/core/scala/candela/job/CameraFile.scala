@@ -49,8 +49,9 @@ object CameraFile:
     // The user has named it, so an untrusted scene's may be anywhere
     val folder = SceneFolder.of(file, allowance = within.allowance)
     val text = textOf(name, folder.scene(file))
-    if text.stripPrefix("\uFEFF").stripLeading.startsWith("<") then
-      val sensor = SensorFile(file, folder, text.stripPrefix("\uFEFF"), reading.defines)
+    val unmarked = text.stripPrefix("\uFEFF")
+    if unmarked.stripLeading.startsWith("<") then
+      val sensor = SensorFile(file, folder, unmarked, reading.defines)
       new CameraFile(name, file, sensor.parameters, ofSensor(_, file, sensor, reading))
     else
       val defines = Defines(reading.defines)

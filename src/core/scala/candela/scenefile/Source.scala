@@ -91,6 +91,8 @@ final class Source private (val name: String, room: Int, input: Input):
     end >= head.length && head.indices.forall(i => (window(i) & 0xff) == head(i))
 
 object Source:
+  /** Maximum compression ratio of deflate (zlib's technical notes: 1032 to 1). */
+  val MaxDeflateRatio = 1032L
 
   def apply(name: String, bytes: Array[Byte]): Source =
     // One byte of room, so that reading finds the end.
@@ -226,7 +228,7 @@ private final class Unpacked private (packed: Counted, size: Long, note: Long =>
 
   /** Upper bound on the bytes that follow, from deflate's maximum ratio and the allowed one. */
   def maxRemaining: Long =
-    val possible = (size - packed.count + (1 << 16)) * Unpacked.MaxDeflateRatio
+    val possible = (size - packed.count + (1 << 16)) * Source.MaxDeflateRatio
     possible.min(Unpacked.UncheckedBytes + size * Unpacked.MaxRatio - count)
 
   override def read(into: Array[Byte], from: Int, length: Int): Int =
@@ -240,9 +242,6 @@ private final class Unpacked private (packed: Counted, size: Long, note: Long =>
 private object Unpacked:
   def apply(in: InputStream, size: Long, note: Long => Unit): Unpacked =
     new Unpacked(Counted(in), size, note)
-
-  /** Maximum compression ratio of deflate (zlib's technical notes: 1032 to 1). */
-  private val MaxDeflateRatio = 1032L
 
   /** Numeric text compresses 3 to 10 times, that of a regular grid 50 times. */
   private val MaxRatio = 100L

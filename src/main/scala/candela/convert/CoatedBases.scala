@@ -14,14 +14,21 @@ private[convert] object CoatedBases:
   /** As many reflections of the base as any coat shows. */
   private val Hits = 100
 
+  /** The albedo of the diffuse lobe of Ashikhmin and Shirley's model, over all directions, where
+    * `Kd` · (1 − `Ks`) is 1 ("An Anisotropic Phong BRDF Model", JGT 5(2), 2000).
+    */
+  val BlendAlbedo: Float = 23f / 28f
+
   /** The coat of a statement.
     *
-    * @param alpha of a roughness in the statement's dialect
+    * @param alpha of a roughness in the statement's dialect, and of whether that is remapped
     */
-  def coatOf(s: Statement, eta: Float, roughness: Float)(alpha: Float => Float): Coat =
+  def coatOf(s: Statement, eta: Float, roughness: Float)(alpha: (Float, Boolean) => Float): Coat =
     def number(name: String) = s.peek(name).flatMap(s.numberOf)
-    def along(name: String) = alpha(number(name).orElse(number("roughness")).getOrElse(roughness))
-    val top = TrowbridgeReitz(along("uroughness"), along("vroughness"))
+    val isRemapped = s.peek("remaproughness").forall(!_.bools.contains(false))
+    def alphaOf(name: String) =
+      alpha(number(name).orElse(number("roughness")).getOrElse(roughness), isRemapped)
+    val top = TrowbridgeReitz(alphaOf("uroughness"), alphaOf("vroughness"))
     val thickness = Math.max(number("thickness").getOrElse(0.01f), 0f)
     if top.isSmooth then coats.of(top, eta, thickness)
     else Coats.interpolate(coats.family(eta, thickness), top)

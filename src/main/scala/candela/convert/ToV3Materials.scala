@@ -46,18 +46,17 @@ object ToV3Materials:
     ).getOrElse(1.5f)
 
   /** A coat, and the reflectance of its base, as those of Ashikhmin and Shirley's model: `Ks`
-    * is the reflectance at normal incidence, `Kd` what gives the base the same albedo, 23/28 · Kd ·
-    * (1 − Ks) in that model.
+    * is the reflectance at normal incidence, `Kd` what gives the base the same albedo.
     */
   private val coatedBase = Step("`reflectance`, `eta`", "`Kd` of equal albedo, `Ks`"): s =>
     val eta = takeIndex(s)
     val ks = normalReflectance(eta)
-    val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
-    val coat = CoatedBases.coatOf(s, eta, roughness = 0f)(RoughnessSteps.alphaOfV4(_, remap))
+    val coat = CoatedBases.coatOf(s, eta, roughness = 0f)(RoughnessSteps.alphaOfV4)
     s.addRgb("Ks", Rgb.gray(ks))
     CoatedBases.add(s, s.take("reflectance"), 0.5f, "Kd", "brighter by up to a half"):
       reflectance =>
-        Math.min(CoatedBases.albedo(reflectance, coat, eta) * 28f / (23f * (1f - ks)), 1f)
+        val albedo = CoatedBases.albedo(reflectance, coat, eta)
+        Math.min(albedo / (CoatedBases.BlendAlbedo * (1f - ks)), 1f)
 
   /** Absorption `k` for which a v4 conductor of index 1 has the given reflectance. */
   private def absorption(r: Float): Float =

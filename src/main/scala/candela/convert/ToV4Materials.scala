@@ -51,8 +51,7 @@ object ToV4Materials:
       val normal = Math.min(Math.max(gloss.luminance * fresnel, 1e-4f), 0.9f)
       val eta = (1f + sqrt(normal)) / (1f - sqrt(normal))
       s.addFloat("eta", eta)
-      val remap = s.peek("remaproughness").forall(!_.bools.contains(false))
-      val coat = CoatedBases.coatOf(s, eta, roughness = 0.1f)(RoughnessSteps.alphaOfV3(_, remap))
+      val coat = CoatedBases.coatOf(s, eta, roughness = 0.1f)(RoughnessSteps.alphaOfV3)
       CoatedBases.add(s, s.take("Kd"), kd, "reflectance", "darker by up to a third"): value =>
         CoatedBases.reflectance(albedo(value, normal), coat, eta)
 
@@ -89,7 +88,8 @@ object ToV4Materials:
   private val lambertian = coatedBase(0.25f, 0.25f, 0.04f)((kd, _) => kd)
 
   /** Ashikhmin and Shirley's model. */
-  private val fresnelBlend = coatedBase(0.5f, 0.5f, 1f)((kd, ks) => 23f / 28f * kd * (1f - ks))
+  private val fresnelBlend =
+    coatedBase(0.5f, 0.5f, 1f)((kd, ks) => CoatedBases.BlendAlbedo * kd * (1f - ks))
 
   private val uber: Step = Step(
     "`Kr`, `Kt`, `opacity`",

@@ -34,7 +34,7 @@ object PlySize:
         else start
       val header = PlyHeader.read(Source(file.toString, text), (_, m) => throw IOException(m))
       Some(size(header, if isPacked then 0 else file.size)
-        .limited(file.size * (if isPacked then DeflateRatio else 1)))
+        .limited(file.size * (if isPacked then Source.MaxDeflateRatio else 1)))
     catch case _: IOException | _: SceneError => None
 
   private def size(header: PlyHeader, length: Long): PlySize =
@@ -63,6 +63,3 @@ object PlySize:
   private val UsualHeader = 1 << 11
   private val Beginning = 1 << 16
   private val MaxCorners = 8.0
-
-  /** The largest of zlib (zlib.net, "Technical Details"). */
-  private val DeflateRatio = 1032L

@@ -1,7 +1,6 @@
 package candela.cli.commands
 
-import candela.base.Figures
-import candela.base.loop
+import candela.base.{loop, Figures}
 import candela.color.Encoding
 import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path

@@ -8,7 +8,6 @@ import candela.cli.options.{FilmOptions, Words}
 import candela.image.{Contents, ImageError, OutputFormat}
 import candela.job.{ImageName, Prepared, SceneFormat, StrategyFiles}
 import candela.render.RenderPlan
-import candela.render.storage.FilmFile
 
 import java.io.IOException
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -174,7 +173,7 @@ object OutputFiles:
     val file = path(name)
     val ending = FileName.suffix(file)
     val kind =
-      if ending == FilmFile.Suffix then Some("a film file")
+      if FilmOptions.isFilm(name) then Some("a film file")
       else if Words.imageSuffixes.contains(ending) then Some("an image")
       else SceneFormat.named(file).filter(isForeign).map(f => s"a file of ${f.name}")
     for k <- kind do

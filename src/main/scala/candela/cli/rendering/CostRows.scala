@@ -1,7 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.Figures
-import candela.base.{ByteCount, JavaHeap}
+import candela.base.{ByteCount, Figures, JavaHeap}
 import candela.render.{Cost, CostKind, Costs, Rendering}
 import candela.report.CostFigure
 

@@ -1,7 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.Figures
-import candela.base.Version
+import candela.base.{Figures, Version}
 import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{FileName, WholeFile}
 import java.nio.charset.StandardCharsets.UTF_8

@@ -1,7 +1,6 @@
 package candela.cli.terminal
 
-import candela.base.Figures
-import candela.base.JavaHeap
+import candela.base.{Figures, JavaHeap}
 import candela.diagnostics.{
   Code, Excerpt, Problem, Refusal, SceneError, Severity, SourcePos, Visible
 }
