@@ -52,6 +52,11 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
   private def chosen(parts: Vector[ExrPart]): Int =
     Vector(parts.indexWhere(hasRgb), parts.indexWhere(isGray)).find(_ >= 0).getOrElse(0)
 
+  /** The part whose colours are read. */
+  def part(file: Array[Byte]): ExrPart =
+    val parts = ExrHeader.parts(file)
+    parts(chosen(parts))
+
   /** Which colours of several parts are read, and what is not.
     *
     * @param start of the file

@@ -101,7 +101,7 @@ object ImageFiles:
   private def part(path: Path): Option[ExrPart] =
     // A pipe is read once
     val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
-    Option.when(bytes.startsWith(ExrMark))(ExrHeader.parts(bytes).head)
+    Option.when(bytes.startsWith(ExrMark))(Exr.part(bytes))
 
   /** What is not read of an EXR file of several parts, or could be read otherwise. */
   def partsRemark(path: Path): Option[String] =

@@ -56,6 +56,8 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("of several parts the one with colour is read"):
     assertHolds(Exr.read(resource("multipart")), rgb :+ ("depth.Z" -> 6))
+    // The depth before it has floats
+    assert(Exr.part(resource("multipart")).precision == "half")
 
   test("parts with the same pixels are read beside it, under names of their own"):
     val beside = Vector("normal.N.X" -> 4, "normal.N.Y" -> 5, "shadow.R" -> 0, "shadow.depth" -> 6)
