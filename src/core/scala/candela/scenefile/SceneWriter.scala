@@ -352,15 +352,14 @@ final class SceneWriter(
   def beginObject(name: String, at: SourcePos): Unit =
     if inObject.nonEmpty then
       fail(Code.WrongPlace, at, "ObjectBegin inside an object", Some("objects can't be nested"))
-    val unique =
-      if names.reserve("object", name) then name
-      else
-        rejectInV4(at, "object", name)
-        names.fresh(List("object"), name)
+    val isNew = names.reserve("object", name)
+    val unique = if isNew then name else names.fresh(List("object"), name)
     val _ = names.reserve("object", unique)
     objectNames(name) = unique
     blocks.start("ObjectBegin", at)
     inObject = Some((unique, mutable.ArrayBuffer.empty))
+    // The block is open, whatever its name
+    if !isNew then rejectInV4(at, "object", name)
 
   def endObject(at: SourcePos): Unit =
     inObject.foreach((name, shapes) => objects(name) = shapes.toVector)

@@ -34,7 +34,7 @@ class SceneBuilderSuite extends AnyFunSuite:
   test("what is wrong in code has the message that it has in a file, and the line of the call"):
     val text = LibraryScenes.text()
     val mistakes = Vector[(String, String, SceneBuilder => SceneBuilder)](
-      ("Shape \"sphere\" \"float radius\" 1", "Shape \"spher\"", _.shape("spher", Parameters())),
+      ("", "Shape \"spher\"", _.shape("spher", Parameters())),
       (
         "",
         "Shape \"sphere\" \"float radiu\" 1",
@@ -73,17 +73,22 @@ class SceneBuilderSuite extends AnyFunSuite:
         "",
         "Texture \"checks\" \"spectrum\" \"constant\"",
         _.texture("checks", TextureValues.Spectrum, "constant", Parameters())
+      ),
+      (
+        "ObjectBegin \"o\" ObjectEnd\n",
+        "ObjectBegin \"o\" ObjectEnd",
+        _.define("o", identity(_)).define("o", identity(_))
       )
     )
     def plain(message: String) = message.replaceAll(raw"[\w./]+:\d+:\d+", "PLACE")
-    for (_, written, call) <- mistakes do
-      val inFile = Candela.parse(s"$text$written\n").check(RenderSettings()).asScala.toVector
+    for (before, written, call) <- mistakes do
+      val inFile = Candela.parse(s"$text$before$written\n").check(RenderSettings()).asScala.toVector
       val inCode = call(LibraryScenes.built()).scene().check(RenderSettings()).asScala.toVector
       def shown(p: Problem) = (p.severity, plain(p.message), p.help.toString)
       assert(inFile.nonEmpty, written)
       assert(inCode.map(shown) == inFile.map(shown), written)
       assert(inCode.forall(_.file.get == "SceneBuilderSuite.scala"), written)
-      assert(inCode.forall(_.line > 20) && inFile.forall(_.line == text.linesIterator.size + 1))
+      assert(inCode.forall(_.line > 20) && inFile.forall(_.line == s"$text$before".linesIterator.size + 1))
 
   test("a body that returns another builder is refused, since its shapes would be lost"):
     val lost = LibraryScenes.built().shape("sphere", Parameters())
