@@ -62,7 +62,7 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     checkOptions(file, reading)
     val camera = reading.camera.map(CameraFile.read(_, within, reading))
     val usedByCamera = camera.fold(Set.empty)(_.parameters)
-    val scene = readable(file, within, reading, world, text, usedByCamera)
+    val scene = firstOf(readable(file, within, reading, world, text, usedByCamera), world)
     camera.fold(Interiors.aroundCamera(scene))(_.applied(scene))
 
   /** @param usedByCamera names of values that the camera file has, and that the scene needn't */
@@ -74,6 +74,14 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       text: Option[String],
       usedByCamera: Set[String]
   ): SceneDescription
+
+  /** The scene, whose others are left out if none is asked for by its number. */
+  private def firstOf(scene: SceneDescription, world: Option[Int]): SceneDescription =
+    if !scene.isFollowed || world.isDefined then scene
+    else
+      val message = s"the file has several $worlds; this is about the first"
+      val firstOnly = Problem(Code.SeveralWorlds, Severity.Warning, None, message)
+      scene.copy(isFollowed = false, warnings = scene.warnings :+ firstOnly)
 
   /** Index of the sensor that is asked for, if any is. */
   protected final def sensor(reading: ReadSettings, world: Option[Int]): Option[Int] =
@@ -168,11 +176,7 @@ object SceneFormat:
         case Some(text) =>
           Parser.readableText(file.toString, text, within, dialect, keepGoing, defines, n)
         case None => Parser.readable(file, dialect, keepGoing, n, Some(within), defines)
-      val scene = DialectChoice.of(read, dialect)
-      if !scene.isFollowed || world.isDefined then scene
-      else
-        val firstOnly = Problem(Code.SeveralWorlds, Severity.Warning, None, FirstOnly)
-        scene.copy(isFollowed = false, warnings = scene.warnings :+ firstOnly)
+      DialectChoice.of(read, dialect)
 
     def digest(text: String): String = TokenDigest.of(text)
 
@@ -187,8 +191,6 @@ object SceneFormat:
         ).flatMap(_.param("filename")) match
           case Some(name) => name.strings.headOption.map(Some(_))
           case None => Some(None)
-
-    private val FirstOnly = "the file has several worlds; this is about the first"
 
   private object Mitsuba extends SceneFormat("Mitsuba", Vector("xml")):
     def hasDialects: Boolean = false
@@ -215,8 +217,7 @@ object SceneFormat:
         reading.resolution,
         usedByCamera
       )
-      val hasNext = scene.isFollowed && world.isDefined && reading.sensors.contains(Sensors.All)
-      scene.copy(isFollowed = hasNext)
+      scene.copy(isFollowed = scene.isFollowed && reading.sensors.contains(Sensors.All))
 
     def digest(text: String): String = XmlFile.ofText("", text).digest
 

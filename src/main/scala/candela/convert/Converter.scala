@@ -81,7 +81,13 @@ object Converter:
         Converted(result, previous.warnings ++ run.warnings)
     val bounded = withoutBacks(converted)
     val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
-    plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
+    // Those of others are read before
+    val missing = if isOfOthers then Vector.empty else FileNames.missing(scene)
+    val named = plain.warnings.flatMap(_.pos).toSet
+    Converted(
+      toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)),
+      plain.warnings ++ missing.filterNot(_.pos.exists(named))
+    )
 
   private def ofOthers(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
     val skies = SunskyLights.converted(scene, files)
@@ -236,6 +242,19 @@ object FileNames:
     case ParamType.String => Names(p.name) && !Outputs(d.category) && isNoWord(p, d)
     case ParamType.Spectrum => p.strings.exists(exists(d, _))
     case _ => false
+
+  /** Warnings of files that the scene names, and that are not there. */
+  def missing(scene: SceneDescription): Vector[Problem] =
+    val warnings = Vector.newBuilder[Problem]
+    val _ = Declarations.map(scene): d =>
+      for
+        p <- d.params if isFile(d, p)
+        name <- p.strings if name.nonEmpty && !exists(d, name)
+      do
+        val message = s"no file `$name`; its name stays"
+        warnings += Problem.warning(Code.NoSuchFile, p.pos, message)
+      d
+    warnings.result()
 
   /** An aperture may also be a keyword such as "star"; all other values are files. */
   private def isNoWord(p: Param, d: Declaration): Boolean =

@@ -13,27 +13,29 @@ import candela.scenefile.Param
   */
 object SkyImages:
 
-  /** Writes the environment map named by `p` for the target dialect; returns its name.
+  /** Writes the environment map named by `p` for the target dialect; returns its name, or, after a
+    * warning, that of the original if it can't be read.
     *
     * @param tint factor of its colours
     */
-  def converted(p: Param, s: Statement, toSquare: Boolean, tint: Rgb): Option[String] =
+  def converted(p: Param, s: Statement, toSquare: Boolean, tint: Rgb): String =
     val name = p.strings.head
     try
       val file = RewrittenImages.file(s, p)
       val kind = if toSquare then "equalarea" else "latlong"
-      Some(s.run.files.reused((file.path, s.run.pass.from, s.name, tint)):
+      s.run.files.reused((file.path, s.run.pass.from, s.name, tint)):
         val image = environment(file, name, s, toSquare)
         val tinted = if tint == Rgb.White then image else times(image, tint)
-        s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
+        s.run.files.add(kind, "exr", ImageFiles.exr(tinted))
     catch
       case e: (ImageError | IesError) =>
+        val loss = if tint == Rgb.White then "" else ", without the colour of its light"
         s.warn(
           Code.UnconvertedImage,
           p.pos,
-          s"can't convert the image, ignoring it: ${e.getMessage}"
+          s"can't convert the image, leaving it unchanged$loss: ${e.getMessage}"
         )
-        None
+        name
 
   private def environment(file: InputFile, name: String, s: Statement, toSquare: Boolean): Image =
     val isPhotometry = IesFile.isNamed(name)

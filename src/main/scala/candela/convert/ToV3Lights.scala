@@ -32,17 +32,16 @@ object ToV3Lights:
       s.take("filename").filter(_.strings.headOption.exists(_.nonEmpty)) match
         case None => plain.run(s)
         case Some(p) =>
-          for name <- SkyImages.converted(p, s, toSquare = false, Rgb.White) do
-            s.addString("mapname", name)(using p.pos)
+          val name = SkyImages.converted(p, s, toSquare = false, Rgb.White)
+          s.addString("mapname", name)(using p.pos)
           scaled.run(s)
 
   private val goniometric: Step =
     val light = Emission.toV3("I", "power", unknown)
     Step("`filename`, `I`, `scale`", "`mapname` of an equirectangular image; `I`, `scale`"): s =>
-      for
-        p <- s.take("filename")
-        name <- SkyImages.converted(p, s, toSquare = false, Rgb.White)
-      do s.addString("mapname", name)(using p.pos)
+      for p <- s.take("filename") do
+        val name = SkyImages.converted(p, s, toSquare = false, Rgb.White)
+        s.addString("mapname", name)(using p.pos)
       light.run(s)
 
   private val projection: Step =
@@ -58,7 +57,8 @@ object ToV3Lights:
     Rule("distant" -> "distant")(retain("from", "to"), Emission.toV3("L", "illuminance", distant)),
     Rule.approximate("spot" -> "spot", "different falloff at the edge of the cone")(
       Emission.toV3("I", "power", spot),
-      retain("from", "to", "coneangle", "conedeltaangle")
+      retain("from", "to"),
+      SpotEdge.step(SpotEdge.MeanInV4 / SpotEdge.MeanInV3)
     ),
     Rule("goniometric" -> "goniometric")(goniometric),
     Rule("projection" -> "projection")(projection),

@@ -2,7 +2,7 @@ package candela.convert
 
 import candela.color.Rgb
 import candela.lights.PictureLookup
-import candela.math.Transform
+import candela.math.{cos, radians, Transform}
 import candela.scenefile.{AnimatedTransform, LightDescription, Param, ParamType}
 
 /** Lights, from v3 to v4. */
@@ -30,8 +30,8 @@ object ToV4Lights:
           val tint =
             if optional then if isGray then Rgb.White else factor
             else channel.fold(Rgb.White)(_ * 3f)
-          for name <- SkyImages.converted(p, s, toSquare = true, tint) do
-            s.addString("filename", name)(using p.pos)
+          val name = SkyImages.converted(p, s, toSquare = true, tint)
+          s.addString("filename", name)(using p.pos)
           if !isGray && !optional then s.addRgb(color, factor)
           else if isGray && factor.r != 1f then s.addFloat("scale", factor.r)
 
@@ -53,7 +53,8 @@ object ToV4Lights:
     Rule("point" -> "point")(retain("from"), Emission.toV4("I"), samples),
     Rule("distant" -> "distant")(retain("from", "to"), Emission.toV4("L"), samples),
     Rule.approximate("spot" -> "spot", "different falloff at the edge of the cone")(
-      retain("from", "to", "coneangle", "conedeltaangle"),
+      retain("from", "to"),
+      SpotEdge.step(SpotEdge.MeanInV3 / SpotEdge.MeanInV4),
       Emission.toV4("I"),
       samples
     ),
@@ -91,3 +92,25 @@ object ToV4Lights:
       val flip = Transform.scale(1, -1, 1).get
       val t = l.lightToWorld
       l.copy(lightToWorld = AnimatedTransform(t.start * flip, t.end * flip))
+
+/** The edge of a spot light, where v3's light falls off with the fourth power of the cosine's
+  * distance to the end of the cone, v4's in a smoothstep of it.
+  */
+private object SpotEdge:
+  /** Of the light within the edge, relative to that before it: integrals over the cosine. */
+  val MeanInV3 = 1f / 5f
+  val MeanInV4 = 1f / 2f
+
+  /** An edge as much narrower or wider in the cosine that the power of the light stays, unless it
+    * would be wider than the sphere.
+    */
+  def step(ratio: Float): Step =
+    Step("`coneangle`, `conedeltaangle`", "`coneangle`, `conedeltaangle` of the same power"): s =>
+      val end = s.takeNumber("coneangle", 30f)
+      val start = end - s.takeNumber("conedeltaangle", 5f)
+      val cosStart = cos(radians(start))
+      val cosEnd = cosStart - (cosStart - cos(radians(end))) * ratio
+      val isSharp = end == start
+      val changed = if isSharp then end else Math.toDegrees(Math.acos(Math.max(cosEnd, -1f))).toFloat
+      s.addFloat("coneangle", changed)
+      s.addFloat("conedeltaangle", changed - start)

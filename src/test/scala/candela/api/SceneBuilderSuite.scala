@@ -88,7 +88,9 @@ class SceneBuilderSuite extends AnyFunSuite:
       assert(inFile.nonEmpty, written)
       assert(inCode.map(shown) == inFile.map(shown), written)
       assert(inCode.forall(_.file.get == "SceneBuilderSuite.scala"), written)
-      assert(inCode.forall(_.line > 20) && inFile.forall(_.line == s"$text$before".linesIterator.size + 1))
+      assert(inCode.forall(_.line > 20) && inFile.forall(
+        _.line == s"$text$before".linesIterator.size + 1
+      ))
 
   test("a body that returns another builder is refused, since its shapes would be lost"):
     val lost = LibraryScenes.built().shape("sphere", Parameters())

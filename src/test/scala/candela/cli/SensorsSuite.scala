@@ -53,6 +53,17 @@ final class SensorsSuite extends AnyFunSuite:
       val (code, captured) = Captured.run((several ++ Vector("-o", s"$folder/v%d.exr"))*)
       assert(code == 1 && captured.err.contains("has several images; --spark renders one"))
 
+  test("commands for one image say that all sensors are not meant"):
+    TempFolder.use: folder =>
+      val file = scene(folder, 4, 6)
+      def said(words: String*) =
+        val (code, captured) = Captured.run(words*)
+        assert(code == 0, captured.err)
+        captured.err.contains("the file has several sensors; this is about the first")
+      for command <- Vector("check", "convert") do
+        assert(said(command, s"$file", "--sensor", "all"))
+        assert(!said(command, s"$file", "--sensor", "1"))
+
   test("images without a name have that of the scene and the sensor's number"):
     TempFolder.use: folder =>
       def name(sensor: Option[Int], widths: Int*) =

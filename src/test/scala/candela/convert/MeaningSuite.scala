@@ -77,6 +77,23 @@ class MeaningSuite extends AnyFunSuite:
       )
     do assertSameLight(s"LightSource \"infinite\" $light", Dialect.V4, Dialect.V3)
 
+  test("a spot light keeps its power, whose edge falls off otherwise"):
+    // Integrals over the cosine: before the edge, and within it
+    def power(end: Double, delta: Double, within: Double) =
+      val cosEnd = Math.cos(Math.toRadians(end))
+      val cosStart = Math.cos(Math.toRadians(end - delta))
+      1 - cosStart + within * (cosStart - cosEnd)
+    for
+      (end, delta) <- Vector((30, 18), (60, 60), (40, 1), (20, 0))
+      (from, to, a, b) <- Vector((Dialect.V3, Dialect.V4, .2, .5), (Dialect.V4, Dialect.V3, .5, .2))
+    do
+      val text = s"LightSource \"spot\" \"float coneangle\" $end \"float conedeltaangle\" $delta"
+      val world = if from == Dialect.V3 then s"$text\nWorldEnd" else text
+      val light = converted(world, from, to).scene.lights.head.light
+      val changed = power(number(light, "coneangle"), number(light, "conedeltaangle"), b)
+      assert(Math.abs(changed / power(end, delta, a) - 1) < 1e-4, s"$from $end $delta")
+      assert(delta > 0 || number(light, "conedeltaangle") == 0)
+
   test("the power of an area light is that of one side, or of two"):
     for isTwoSided <- Seq(false, true) do
       val light = s"AreaLightSource \"diffuse\" \"float power\" 5 \"bool twosided\" $isTwoSided\n" +

@@ -38,3 +38,27 @@ class SideFilesSuite extends AnyFunSuite:
       assert(mesh.normals.sameElements(scene.shapes.head.shape.param("N").get.floats))
       assert(mesh.uvs.sameElements(scene.shapes.head.shape.param("uv").get.floats))
       assert(mesh.indices.toVector == Vector(0, 1, 2, 0, 2, 3))
+
+  test("names of missing files stay, and each is a warning"):
+    TempFolder.use: folder =>
+      def converted(world: String, from: Dialect, to: Dialect) =
+        val end = if from == Dialect.V4 then "" else "\nWorldEnd"
+        val text = s"WorldBegin\n$world$end"
+        Converter.convert(Parser.parseText("t.pbrt", text, folder, Some(from)), to, folder)
+      val light = "LightSource \"infinite\" \"rgb L\" [.2 .3 1] \"string "
+      val texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"no.png\""
+      for
+        (from, to) <- Vector(Dialect.V3 -> Dialect.V4, Dialect.V4 -> Dialect.V3)
+        (name, renamed) =
+          if to == Dialect.V4 then "mapname" -> "filename" else "filename" -> "mapname"
+      do
+        val made = converted(s"$light$name\" \"no.exr\"\n$texture", from, to)
+        val messages = made.warnings.map(_.message)
+        val (file, side) =
+          (messages.filter(_.contains("no.exr")), messages.filter(_.contains("no.png")))
+        assert(file.size == 1 && side.size == 1, messages)
+        assert(file.head.contains("leaving it unchanged"))
+        assert(file.head.contains("without the colour") == (to == Dialect.V4))
+        val declared = made.scene.lights.head.light
+        assert(declared.param(renamed).get.strings == Vector("no.exr"))
+        assert(made.scene.textures.head.texture.param("filename").get.strings == Vector("no.png"))

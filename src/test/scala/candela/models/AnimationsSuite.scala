@@ -193,7 +193,7 @@ class AnimationsSuite extends AnyFunSuite, GltfModels:
     val names = images.map(_.film.get.param("filename").get.strings.head)
     assert(names == Vector.tabulate(3)(i => s"model-$i.exr"))
     // Where a scene is one image, it is the first
-    assert(read(walk, reading = steps).warnings.exists(_.message.contains("several times")))
+    assert(read(walk, reading = steps).warnings.exists(_.message.contains("several images")))
     for
       several <- Seq(
         steps.copy(sensors = Some(Sensors.All)),

@@ -1,6 +1,5 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, Severity}
 import candela.io.{ForeignKind, SceneFolder}
 import candela.scenefile.SceneDescription
 import candela.settings.{ReadSettings, Sensors}
@@ -50,10 +49,4 @@ abstract class NodeFormat private[models] (name: String, suffixes: Vector[String
         world.getOrElse(0)
       )
     val hasNext = reading.model.hasSeveralImages || reading.sensors.contains(Sensors.All)
-    val firstOnly = Option.when(world.isEmpty && reading.model.state.times.exists(_.count > 1)):
-      val message = "--at has several times; this is about the first"
-      Problem(Code.SeveralWorlds, Severity.Warning, None, message)
-    scene.copy(
-      isFollowed = scene.isFollowed && world.isDefined && hasNext,
-      warnings = scene.warnings ++ firstOnly
-    )
+    scene.copy(isFollowed = scene.isFollowed && hasNext)

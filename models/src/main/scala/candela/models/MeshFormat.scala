@@ -39,9 +39,7 @@ abstract class MeshFormat private[models] (name: String, suffix: String, up: UpA
     val complete =
       Studio.complete(turned, session, reading, world.getOrElse(0), isWhole = false)
     val scene = MeshFormat.withAxis(session.finished(complete), reading.model.up, up)
-    scene.copy(
-      isFollowed = scene.isFollowed && world.isDefined && reading.model.turntable.nonEmpty
-    )
+    scene.copy(isFollowed = scene.isFollowed && reading.model.turntable.nonEmpty)
 
 private[models] object MeshFormat:
   /** Of surfaces without a material: that of Blender's. */

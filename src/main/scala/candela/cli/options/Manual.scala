@@ -49,10 +49,11 @@ private[cli] object Manual:
       |[PROBLEMS](PROBLEMS.md) has all.
       |
       |Missing files, types and objects are errors unless `--keep-going` is given, which replaces
-      |them with placeholders. Unknown shapes, materials, area lights, volumes and accelerators of
-      |v2 and v3 scenes, many of them from forks of pbrt, are always warnings, and replaced as in
-      |pbrt. Unsupported features are always reported: a warning names the feature, its location in
-      |the file and the fallback. Options without effect cause a warning.
+      |them with placeholders; `convert` keeps the names of missing files, with a warning. Unknown
+      |shapes, materials, area lights, volumes and accelerators of v2 and v3 scenes, many of them
+      |from forks of pbrt, are always warnings, and replaced as in pbrt. Unsupported features are
+      |always reported: a warning names the feature, its location in the file and the fallback.
+      |Options without effect cause a warning.
       |
       |Messages are coloured on terminals only, and not if `NO_COLOR` is set. Control characters in
       |scenes, metadata and names of files are shown (`␛`, `<U+202E>`) instead of obeyed; a scene
