@@ -16,6 +16,7 @@ import unittest
 import warnings
 from pathlib import Path
 from unittest import mock
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -139,6 +140,41 @@ class InMemory(unittest.TestCase):
         self.assertEqual((caught.exception.line, caught.exception.file), (2, "scene.xml"))
         with self.assertRaises(candela.UsageError):
             candela.load_string(SCENE).parameters()
+
+    def test_objects_without_id_have_names(self):
+        text = """<scene version="3.0.0">
+          <default name="emitter" value="1"/>
+          <shape type="sphere"><float name="radius" value="1"/></shape>
+          <shape type="sphere"><float name="radius" value="2"/></shape>
+          <shape type="sphere" id="shape"><float name="radius" value="3"/></shape>
+          <shape type="sphere" id="shape_1"><float name="radius" value="4"/>
+            <bsdf type="blendbsdf">
+              <ref id="red"/><bsdf type="diffuse"><float name="reflectance" value="0.5"/></bsdf>
+            </bsdf>
+          </shape>
+          <shape type="sphere" id="shape.bsdf"><float name="radius" value="5"/></shape>
+          <bsdf type="diffuse" id="red"><float name="reflectance" value="0.6"/></bsdf>
+          <emitter type="point"><float name="intensity" value="1"/></emitter>
+          <emitter type="point"><float name="intensity" value="2"/></emitter>
+        </scene>"""
+        values = candela.load_string(text).parameters()
+        expected = {
+            "shape_2.radius": 1,
+            "shape_3.radius": 2,
+            "shape.radius": 3,
+            "shape_1.radius": 4,
+            "shape_1.bsdf.bsdf_1.reflectance": 0.5,
+            "shape.bsdf.radius": 5,
+            "red.reflectance": 0.6,
+            "emitter.intensity": 1,
+            "emitter_1.intensity": 2,
+        }
+        self.assertEqual(dict(values), expected)
+        del values["shape_2.radius"], values["emitter"]
+        values["shape_2"] = {"type": "sphere", "radius": 7}
+        self.assertEqual((values["shape_2.radius"], values["emitter_1.intensity"]), (7, 2))
+        values["emitter"] = {"type": "point", "intensity": 3}
+        self.assertEqual(dict(values), {**expected, "shape_2.radius": 7, "emitter.intensity": 3})
 
     def test_values_may_be_transforms_and_objects(self):
         scene = candela.load_string(XML)
@@ -903,6 +939,70 @@ class InMemory(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as printed:
                 candela.run("render", file, "--spp", 1, "--outfile", image, "--verbose")
             self.assertIn("triangles ", printed.getvalue())
+
+
+class Named(unittest.TestCase):
+    """Values of the repository's scenes. Mitsuba 0.6's animation, blackbody and srgb are none, nor
+    are declarations: alias, default, include and path."""
+
+    TAGS = set("float integer boolean string vector point rgb spectrum transform".split())
+
+    def scenes(self):
+        folder = Path(__file__).parent.parent / "scenes" / "mitsuba"
+        if not folder.is_dir():
+            self.skipTest(f"no folder {folder}")
+        return sorted(folder.glob("mi-*.xml"))
+
+    def elements(self, text):
+        tree = ElementTree.fromstring(text)
+        return [
+            e for e in tree.iter() if e.tag in self.TAGS and "name" in e.attrib and "type" not in e.attrib
+        ]
+
+    def texts(self, file):
+        elements = self.elements(file.read_text())
+        return [" ".join(ElementTree.tostring(e, encoding="unicode").split()) for e in elements]
+
+    def test_every_value_has_one_key(self):
+        for file in self.scenes():
+            elements = self.elements(file.read_text())
+            names = ["value" if e.tag in ("rgb", "spectrum") else e.get("name") for e in elements]
+            keys = [key.rpartition(".")[2] for key in candela.load_file(file).parameters()]
+            self.assertCountEqual(keys, names, file.name)
+
+    def test_a_change_is_of_one_value(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for file in self.scenes():
+                source, saved = (Path(folder) / name for name in (file.name, "saved.xml"))
+                source.write_text(file.read_text())
+                scene = candela.load_file(source)
+                values = scene.parameters()
+                scene.save(saved)
+                before = self.texts(saved)
+                changed = set()
+                for key in values:
+                    values[key] = other = self.other(values[key])
+                    scene.save(saved)
+                    after = self.texts(saved)
+                    places = [i for i, (a, b) in enumerate(zip(before, after)) if a != b]
+                    self.assertEqual((len(places), len(after)), (1, len(before)), key)
+                    changed.update(places)
+                    again = candela.load_file(saved).parameters()
+                    self.assertEqual(list(again), list(values), key)
+                    self.assertEqual(str(again[key]), str(other), key)
+                    before = after
+                self.assertEqual(len(changed), len(before))
+
+    def other(self, value):
+        if isinstance(value, Transform):
+            return Transform([[3, 0, 0, 0], [0, 3, 0, 0], [0, 0, 3, 0], [0, 0, 0, 1]])
+        if isinstance(value, list):
+            return [x + 0.5 for x in value]
+        if isinstance(value, bool):
+            return not value
+        if isinstance(value, str):
+            return 7 if value.startswith("$") else f"{value}-0"
+        return value + 1
 
 
 class Kept(unittest.TestCase):

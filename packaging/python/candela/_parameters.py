@@ -21,9 +21,9 @@ from ._xml import (
     error_of_faults,
     fault,
     is_matrix,
+    is_object,
     is_raw,
-    joined,
-    name_of,
+    keys_of,
 )
 
 Path = Tuple[ET.Element, ET.Element]  # an element, with its parent
@@ -41,29 +41,22 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     def __init__(self, root: ET.Element, changed: Callable[[], None]) -> None:
         self._root = root
         self._changed = changed
+        self._keys = keys_of(root)  # which stay when others are taken out
         self._deleted: Dict[str, Path] = {}  # which may be set again
 
     def _all(self, objects: bool = False) -> Dict[str, Path]:
         """Values, and objects if asked for."""
         found: Dict[str, Path] = {}
-
-        def collect(parent: ET.Element, key: str) -> None:
+        for parent in self._root.iter():
             for child in parent:
-                name = name_of(child) if isinstance(child.tag, str) else ""
-                if not name:
+                key = self._keys.get(child)
+                if key is None:
                     continue  # a comment, or a part of a transform
-                inner = joined(key, name)
-                if child.tag in OBJECTS and "type" in child.attrib:
+                if is_object(child):
                     if objects:
-                        found.setdefault(inner, (parent, child))
-                    collect(child, inner)
-                elif child.tag == "ref" and objects:
-                    found.setdefault(inner, (parent, child))
-                elif child.tag in _VALUES:
-                    suffix = ".value" if child.tag in ("rgb", "spectrum") else ""
-                    found.setdefault(inner + suffix, (parent, child))
-
-        collect(self._root, "")
+                        found[key] = (parent, child)
+                else:
+                    found[key + (".value" if child.tag in _SUFFIXED else "")] = (parent, child)
         return found
 
     def _path(self, key: str, changes: bool = True) -> Path:
@@ -111,10 +104,15 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
             parent[list(parent).index(old)] = new
         else:
             parent.append(new)
-        inside = {id(each) for each in self._root.iter()}
+        inside = set(self._root.iter())
         self._deleted = {
-            k: p for k, p in self._deleted.items() if p[1] is not old and id(p[0]) in inside
+            k: p for k, p in self._deleted.items() if p[1] is not old and p[0] in inside
         }
+        for _, taken_out in self._deleted.values():
+            inside.update(taken_out.iter())
+        start = self._keys[old]
+        self._keys = {each: key for each, key in self._keys.items() if each in inside}
+        self._keys.update(keys_of(new, start, self._keys.values()))
         self._changed()
 
     def __delitem__(self, key: str) -> None:
@@ -141,7 +139,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         return "\n".join(["candela.Parameters:", *lines])
 
 
-_VALUES = set("float integer boolean string vector point rgb spectrum transform".split())
+_SUFFIXED = {"rgb", "spectrum"}  # as Mitsuba's, `.value`
 
 # What may take each other's places
 _COLORS = {"float", "integer", "rgb", "spectrum", "texture", "volume"}

@@ -6,7 +6,8 @@ import difflib
 import math
 import numbers
 import xml.etree.ElementTree as ET
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from itertools import count
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple
 
 from ._arrays import ArrayFile, texture
 from ._errors import OF_DEFINE, Keys, Problem, SceneError
@@ -36,6 +37,7 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
 
 
 OBJECTS = set(ELEMENTS.values())
+_VALUES = set("float integer boolean string vector point rgb spectrum transform".split())
 
 # Parameters of Mitsuba's meshes, which its `traverse` names
 _MESH = {"vertex_positions", "faces", "vertex_normals", "vertex_texcoords"}
@@ -166,19 +168,20 @@ def range_warnings(root: ET.Element) -> List[Problem]:
     """As Mitsuba's: textures that reflect more light than they get, or less than none."""
     of_lights = {ref.get("id") for light in root.iter("emitter") for ref in light.iter("ref")}
     rest = (x for x in root if x.tag != "emitter" and x.get("id") not in of_lights)
-    return [x for each in rest for x in _range_warnings(each, name_of(each))]
+    keys = keys_of(root)
+    return [x for each in rest for x in _range_warnings(each, keys)]
 
 
-def _range_warnings(parent: ET.Element, key: str) -> Iterator[Problem]:
+def _range_warnings(parent: ET.Element, keys: Dict[ET.Element, str]) -> Iterator[Problem]:
     for child in parent:
-        inner = joined(key, name_of(child))
         if isinstance(child, FileElement) and parent.tag == "texture" and not is_raw(parent):
             array = child.file.array
             low, high = f"{array.min():g}", f"{array.max():g}"  # without rounding errors
             if array.dtype.kind == "f" and not 0 <= float(low) <= float(high) <= 1:
-                yield problem("warning", inner, f"values from {low} to {high}, expected 0 to 1")
+                message = f"values from {low} to {high}, expected 0 to 1"
+                yield problem("warning", keys[child], message)
         elif child.tag != "emitter":
-            yield from _range_warnings(child, inner)
+            yield from _range_warnings(child, keys)
 
 
 def is_raw(texture: ET.Element) -> bool:
@@ -271,22 +274,20 @@ def to_text(root: ET.Element) -> str:
 
 def in_lines(root: ET.Element) -> Tuple[str, Keys]:
     """The text of a dict's tree, an element a line, with the keys of the lines."""
-    lines: List[str] = []
-    keys: Keys = []
+    pairs = list(_lines(root, "", keys_of(root)))
+    return "".join(f"{line}\n" for line, _ in pairs), [key for _, key in pairs]
 
-    def write(element: ET.Element, key: str) -> None:
-        attributes = "".join(f" {n}={_quoted(v)}" for n, v in element.attrib.items())
-        children = list(element)
-        lines.append(f"<{element.tag}{attributes}{'' if children else '/'}>")
-        keys.append((key, _size(element)))
-        for child in children:
-            write(child, joined(key, name_of(child)))
-        if children:
-            lines.append(f"</{element.tag}>")
-            keys.append((key, 0))
 
-    write(root, "")
-    return "\n".join(lines) + "\n", keys
+def _lines(
+    element: ET.Element, key: str, named: Dict[ET.Element, str]
+) -> Iterator[Tuple[str, Tuple[str, int]]]:
+    attributes = "".join(f" {n}={_quoted(v)}" for n, v in element.attrib.items())
+    children = list(element)
+    yield f"<{element.tag}{attributes}{'' if children else '/'}>", (key, _size(element))
+    for child in children:
+        yield from _lines(child, named.get(child, key), named)
+    if children:
+        yield f"</{element.tag}>", (key, 0)
 
 
 def _size(element: ET.Element) -> int:
@@ -317,11 +318,67 @@ def _quoted(text: str) -> str:
     return f'"{escaped}"'
 
 
-def name_of(element: ET.Element) -> str:
-    if isinstance(element, FileElement) and element.is_texture:
-        return "data"
-    given = element.get("name") or element.get("id")
-    return given or (element.tag if "type" in element.attrib else "")
+# The names of objects within others, of which Mitsuba numbers all
+_NUMBERED = {
+    "blendbsdf": "bsdf",
+    "mixturebsdf": "bsdf",
+    "twosided": "brdf",
+    "blendphase": "phase",
+    "mixturephase": "phase",
+}
+
+
+def keys_of(
+    root: ET.Element, start: str = "", reserved: Iterable[str] = ()
+) -> Dict[ET.Element, str]:
+    """The key of each element that has one: no two are the same, and none is a reserved one.
+
+    The name or id that an element has is its own; an object without one is named by its element,
+    and numbered if that is taken: ``shape``, ``shape_1``.
+    """
+    keys = {root: start}
+    taken = set(reserved)
+    last: Dict[str, int] = {}  # numbers of keys
+
+    def unique(key: str) -> str:
+        if key not in taken:
+            return key
+        last[key] = next(n for n in count(last.get(key, 0) + 1) if f"{key}_{n}" not in taken)
+        return f"{key}_{last[key]}"
+
+    for parent in root.iter():  # before its children
+        if parent in keys:
+            for child, name in _names(parent):
+                keys[child] = unique(joined(keys[parent], name))
+                taken.add(keys[child])
+    return keys
+
+
+def _names(parent: ET.Element) -> List[Tuple[ET.Element, str]]:
+    """Of its children, first those whose name is their own, then references, then all others."""
+    attributes = ("id", "name") if parent.tag == "scene" else ("name", "id")
+    word = _NUMBERED.get(parent.get("type", ""))
+    number = 0
+    names: List[List[Tuple[ET.Element, str]]] = [[], [], []]
+    for child in parent:
+        if not is_object(child) and child.tag not in _VALUES:
+            continue  # a comment, a part of a transform, a `default`
+        given = next((child.attrib[x] for x in attributes if child.get(x)), "")
+        if isinstance(child, FileElement) and child.is_texture:
+            given = "data"
+        if given:
+            names[child.tag == "ref"].append((child, given))
+        elif is_object(child):
+            is_numbered = word is not None and child.tag in ("bsdf", "phase")
+            names[2].append((child, f"{word}_{number}" if is_numbered else str(child.tag)))
+        is_unnamed = child.tag == "ref" and "name" not in child.attrib
+        number += is_unnamed or child.tag in ("bsdf", "phase")
+    return [each for some in names for each in some]
+
+
+def is_object(element: ET.Element) -> bool:
+    """Whether it is an object, or refers to one."""
+    return element.tag == "ref" or element.tag in OBJECTS and "type" in element.attrib
 
 
 def joined(key: str, name: str) -> str:
