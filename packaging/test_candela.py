@@ -1204,6 +1204,34 @@ class Images(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "needs an array of .* found an array of "):
                 image.rgb = wrong
 
+    def test_layers_of_ones_own_are_saved_and_loaded(self):
+        sizes = {"rgb": [3], "alpha": [], "mask": [], "a.b": [], "pair": [2], "c.d": [3], "four": [4]}
+        sizes.update({"eleven": [11], "maské": [], 40 * "n": [], "Z": []})
+        values = np.arange(4 * 5 * 11, dtype="f4").reshape(4, 5, 11)
+        arrays = {n: values[..., : size[0]] if size else values[..., 7] for n, size in sizes.items()}
+        image = candela.Image({"rgb": arrays["rgb"]})
+        image.layers.update(arrays)
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for saved, suffix in ((image, "exr"), (candela.Image(arrays), "npz")):
+                file = Path(folder) / f"x.{suffix}"
+                saved.save(file)
+                again = candela.load(file)
+                self.assertEqual(set(again.layers), set(arrays))
+                for name, array in arrays.items():
+                    np.testing.assert_array_equal(again.layers[name], array, f"{name} of {suffix}")
+            self.assertEqual(again.channels["mask"], ["mask"])
+            self.assertEqual(again.channels["four"], [f"four.{c}" for c in "RGBA"])
+            one = values[..., 0]
+            for wrong in ({}, {"R": one}, {"": one}, {3: one}, {"m": one[0]}, {"m": 3}, {"m": "a"},
+                          {"rgb": one}, {"alpha": values}, {"m": values[..., :0]}, {"m": one[:0]},
+                          {"m": one, "n": one[1:]}, {"m": np.full((4, 5), "a")}):
+                with self.assertRaisesRegex(ValueError, "layer.* needs|needs at least one layer"):
+                    candela.Image(wrong)
+            image.layers["mask"] = one[1:]
+            for suffix in ("exr", "npz", "png"):
+                with self.assertRaisesRegex(ValueError, "'mask' needs numbers of 4 × 5 or 4 × 5 × "):
+                    image.save(Path(folder) / f"y.{suffix}")
+
     def test_images_are_added_and_multiplied(self):
         values = np.arange(1, 13, dtype="f4").reshape(2, 2, 3)
         i = candela.Image(values)

@@ -30,7 +30,8 @@ class Image:
     is the place of a crop in the whole image: x, y, and the whole's width and height.
 
     Arrays are NumPy's, of float32; without NumPy, they are memoryviews: ``image.rgb[y, x, 0]``.
-    ``Image(array)`` is one of height × width × 3, or × 4 with premultiplied alpha.
+    ``Image(array)`` is one of height × width × 3, or × 4 with premultiplied alpha; a dict is that
+    of its layers.
     """
 
     def __init__(
@@ -42,7 +43,7 @@ class Image:
     ) -> None:
         self.layers: Dict[str, Any] = layers if isinstance(layers, dict) else _layers(layers)
         self.metadata = metadata or {}
-        self.channels = channels or {"rgb": [*"RGB"], "alpha": ["A"]}
+        self.channels = _channels(self.layers, channels or {})
         self.window = window
 
     @property
@@ -187,6 +188,41 @@ def _layers(values: Any) -> Dict[str, Any]:
     return {"rgb": copy} if copy.shape[2] == 3 else {"rgb": copy[..., :3], "alpha": copy[..., 3]}
 
 
+_FIXED = {"rgb": [*"RGB"], "alpha": ["A"]}
+
+
+def _channels(layers: Dict[str, Any], known: Dict[str, List[str]]) -> Dict[str, List[str]]:
+    """The names of each layer's channels, by OpenEXR's convention unless they are known."""
+    if not layers:
+        raise ValueError("an image needs at least one layer")
+    size = tuple(getattr(next(iter(layers.values())), "shape", ()))[:2]
+    sides = " × ".join(map(str, size if len(size) == 2 and all(size) else ("height", "width")))
+    found = {}
+    for name, values in layers.items():
+        if not isinstance(name, str) or name in ["", *"RGBA"] or "\0" in name:
+            raise ValueError(f"a layer needs a name, other than R, G, B and A, found {name!r}")
+        shape = tuple(getattr(values, "shape", ()))
+        names = known.get(name, _FIXED.get(name, []))
+        count = (*shape, 1)[2] if len(shape) in (2, 3) else 0
+        is_known = len(names) == count or name not in _FIXED
+        is_number = getattr(getattr(values, "dtype", None), "kind", "f") in "fiub"
+        if shape[:2] != size or not all(shape) or not count or not is_known or not is_number:
+            own = {"rgb": f"{sides} × 3", "alpha": sides}
+            expected = own.get(name, f"{sides} or {sides} × channels")
+            given = described(values)
+            raise ValueError(f"the layer {name!r} needs numbers of {expected}, found {given}")
+        found[name] = names if len(names) == count else _default_channels(name, count)
+    return found
+
+
+def _default_channels(name: str, count: int) -> List[str]:
+    if count == 1:
+        return [f"{name}.Y" if "." in name else name]  # what is before the last dot is the layer
+    digits = len(str(count - 1))  # they are sorted as texts
+    suffixes = "RGBA"[:count] if count in (3, 4) else [f"{i:0{digits}}" for i in range(count)]
+    return [f"{name}.{suffix}" for suffix in suffixes]
+
+
 # Source: IEC 61966-2-1, sRGB
 _SRGB_OF_XYZ = [
     [3.2404542, -1.5371385, -0.4985314],
@@ -213,8 +249,9 @@ def _joined(image: Image, names: List[str]) -> Any:
     if np:
         return np.dstack([image.layers[name] for name in names])
     planes: List["array[float]"] = []
+    channels = _channels(image.layers, image.channels)
     for name in names:
-        flat, count = _flat(image.layers[name]), len(image.channels[name])
+        flat, count = _flat(image.layers[name]), len(channels[name])
         planes += [flat[i::count] for i in range(count)]
     values = array("f", (x for pixel in zip(*planes) for x in pixel))
     shape = [image.height, image.width, len(planes)]
@@ -268,7 +305,8 @@ def _array(data: bytes) -> Any:
 
 
 def _write_npz(image: Image, path: str) -> None:
-    about: Dict[str, Any] = {"channels": image.channels, "texts": image.metadata}
+    channels = _channels(image.layers, image.channels)
+    about: Dict[str, Any] = {"channels": channels, "texts": image.metadata}
     if image.window is not None:
         about["window"] = list(image.window)
     with zipfile.ZipFile(path, "w") as archive:
@@ -293,11 +331,12 @@ def exr(image: Image) -> bytes:
     """A file of 32-bit floats, not packed. Source: OpenEXR, "OpenEXR File Layout"."""
     width, height = image.width, image.height
     planes: Dict[bytes, "array[float]"] = {}
-    for layer, values in image.layers.items():
-        flat, names = _flat(values), image.channels[layer]
+    for layer, names in _channels(image.layers, image.channels).items():
+        flat = _flat(image.layers[layer])
         for i, name in enumerate(names):
             planes[name.encode()] = flat[i :: len(names)]
     channel_names = sorted(planes)
+    has_long_names = 0x400 * any(len(n) > 31 for n in [*channel_names, *image.metadata])
     x, y, whole_width, whole_height = image.window or (0, 0, width, height)
 
     def attribute(name: str, kind: str, data: bytes) -> bytes:
@@ -308,7 +347,7 @@ def exr(image: Image) -> bytes:
     display = struct.pack("<iiii", 0, 0, whole_width - 1, whole_height - 1)
     header = b"".join(
         [
-            struct.pack("<ii", 20000630, 2),
+            struct.pack("<ii", 20000630, 2 | has_long_names),
             attribute("channels", "chlist", channels),
             attribute("compression", "compression", b"\0"),
             attribute("dataWindow", "box2i", data),
