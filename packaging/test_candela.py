@@ -537,6 +537,29 @@ class InMemory(unittest.TestCase):
             candela.run("resume", "nope.film")
         self.assertEqual(caught.exception.file, "nope.film")
 
+    def test_what_is_no_scene_is_told_when_it_is_loaded(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            names = [Path(folder) / name for name in ("a.xml", "b.xml", "c", "d.xml", "e")]
+            names[0].write_text('<scene version="3.0.0"><shape></scene>')
+            candela.Image(np.ones((2, 2, 3))).save(Path(folder) / "x.png")
+            for name in names[1:3]:
+                shutil.copy(Path(folder) / "x.png", name)
+            for name in names[3:]:
+                name.mkdir()
+            for name in names:
+                with self.assertRaises(candela.SceneError) as rendered:
+                    candela.render(name)
+                for load in (candela.load_file, candela.traverse):
+                    with self.assertRaises(candela.SceneError, msg=name) as loaded:
+                        load(name)
+                    self.assertEqual(str(loaded.exception), str(rendered.exception))
+            self.assertNotIsInstance(rendered.exception, FileNotFoundError)  # it is a folder
+            self.assertEqual(rendered.exception.file, str(names[4]))
+        for call in (candela.render, candela.check, candela.load_file, candela.traverse):
+            for text in (SCENE, XML, "<scene/>"):
+                with self.assertRaisesRegex(candela.UsageError, "candela.load_string reads it"):
+                    call(text)
+
     def test_faults_of_whole_files_are_problems(self):
         with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
             empty, cut = Path(folder) / "e.obj", Path(folder) / "a.stl"
@@ -1001,7 +1024,7 @@ class Named(unittest.TestCase):
         if isinstance(value, bool):
             return not value
         if isinstance(value, str):
-            return 7 if value.startswith("$") else f"{value}-0"
+            return 7 if value.startswith("$") else f"{value}, 800:1" if ":" in value else f"{value}-0"
         return value + 1
 
 
@@ -1038,6 +1061,48 @@ class Kept(unittest.TestCase):
             self.assertEqual(values[name], right)
         with self.assertRaises(TypeError):
             values["red.reflectance.value"][0] = 0
+
+    def test_values_that_no_scene_takes_are_refused_at_once(self):
+        scene = mitsuba()
+        scene["ball"]["center"] = [0, 0, 1]
+        scene["lamp"] = {"type": "point", "intensity": {"type": "spectrum", "value": 2.0}}
+        scene["sensor"]["fov"], scene["sky"]["radiance"] = 40, 1
+        values = candela.traverse(scene)  # as render takes it
+        before, nan = dict(values), float("nan")
+        color, light = "red.reflectance.value", "lamp.intensity.value"
+        for key, value, message in (
+            (color, "blue", "expected three numbers, found 'blue'"),
+            (color, nan, "expected three numbers, found nan"),
+            (color, [nan, 1, 1], "expected three numbers"),
+            (color, [1, 1], "expected three numbers"),
+            (color, True, "expected a number, a colour or a texture, found True"),
+            (light, {"type": "spectrum", "value": "400:1, 500"}, "pairs of wavelength and value"),
+            (light, {"type": "spectrum", "value": [(400, nan)]}, "pairs of wavelength and value"),
+            (light, {"type": "spectrum", "value": ""}, "pairs of wavelength and value"),
+            ("ball.center", [nan, 0, 0], "expected finite numbers"),
+            ("sensor.film.width", True, "expected a number, found True"),
+            ("sensor.fov", "40", "expected a number, found '40'"),
+            ("sensor.fov", [1, 0, 0], r"expected a number, found \[1, 0, 0\]"),
+            ("red", {"type": "diffuse", "a.b": 1}, "`a.b` has a `.`, which separates names"),
+        ):
+            with self.assertRaisesRegex(candela.SceneError, message, msg=f"{key} = {value}"):
+                values[key] = value
+            with self.assertRaises(candela.SceneError):
+                values.update({"sensor.fov": 30, "sky": {"type": "constant"}, key: value})
+            self.assertEqual(dict(values), before)
+        with self.assertRaises(KeyError):
+            values.update({"sensor.fov": 30, "typo": 1})
+        self.assertEqual(dict(values), before)
+        values.update([("sensor.fov", 30)])
+        for value in ("#ff8000", "$x", "0.1 0.2 0.3", 1, [0.1, 0.2, 0.3]):
+            values[color] = value
+        for value in ("400:1, 500:2", [(400, 1), (500, 2)], 3):
+            values["lamp.intensity"] = {"type": "spectrum", "value": value}
+        self.assertEqual(dict(values), {**before, "sensor.fov": 30, color: [0.1, 0.2, 0.3], light: 3})
+        dotted = {"type": "scene", "a.b": {"type": "sphere"}, "c": {"type": "sphere", "x.y": 1}}
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(dotted)
+        self.assertEqual([p.key for p in caught.exception.problems], ["a.b", "c.x.y"])
 
     def test_a_number_after_a_spectrum_is_the_number(self):
         scene = self.scene()
@@ -1182,8 +1247,9 @@ class Images(unittest.TestCase):
                     missing()
                 self.assertIsInstance(caught.exception, candela.SceneError)
                 self.assertIn("absent", caught.exception.problems[0].text)
-            with self.assertRaisesRegex(candela.CandelaError, "x.tiff"):
-                image.save(Path(folder) / "x.tiff")
+            for save in (image.save, lambda file: candela.render(mitsuba(), spp=1, outfile=file)):
+                with self.assertRaisesRegex(candela.UsageError, "x.tiff"):
+                    save(Path(folder) / "x.tiff")
 
     def test_images_are_made_of_arrays_and_are_arrays(self):
         array = np.linspace(0, 1, 60).reshape(5, 3, 4)

@@ -197,6 +197,7 @@ def _problem(lines: List[str], keys: Optional[Keys]) -> Problem:
 
 _NAMED = re.compile("`([^`]+)`")
 _MISSING = re.compile("^E010[14] |: no such folder: ")
+_FORMAT = "E0106"  # of an output, unless the scene names it
 
 
 def missing(path: str, what: str = "file or folder", number: str = "E0104") -> MissingFileError:
@@ -219,11 +220,14 @@ def error_of(code: int, lines: List[str], problems: List[Problem]) -> CandelaErr
     message = "\n".join(errors) or "\n".join(lines[-20:])
     kind = {1: SceneError if problems else CandelaError, 2: UsageError}.get(code, InternalError)
     if problems and _MISSING.search(f"{problems[0].number} {problems[0].message}"):
-        kind = MissingFileError
+        is_there = problems[0].message.endswith("` is a folder")
+        kind = SceneError if is_there else MissingFileError
         first = problems[0]
         named = _NAMED.search(first.message)
         if named and not (first.file or first.key):
             problems[0] = replace(first, file=named[1])
+    elif problems and problems[0].number == _FORMAT and not (problems[0].file or problems[0].key):
+        kind = UsageError
     return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)
 
 

@@ -7,7 +7,7 @@ import math
 import numbers
 import xml.etree.ElementTree as ET
 from collections.abc import MutableMapping
-from typing import Any, Callable, Dict, Iterator, List, Tuple
+from typing import Any, Callable, Dict, Iterator, List, Set, Tuple
 
 from ._arrays import ArrayFile
 from ._errors import Problem
@@ -83,14 +83,36 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         return _value(self._path(key, changes=False)[1])
 
     def __setitem__(self, key: str, value: Any) -> None:
+        self._set(key, value)
+        self._changed()
+
+    def update(self, *others: Any, **named: Any) -> None:
+        """Sets several values, or none if one of them is wrong."""
+        values = dict(*others, **named)
+        keys, deleted = self._keys, self._deleted
+        children = {parent: list(parent) for parent in self._root.iter()}
+        try:
+            for key, value in values.items():
+                self._set(key, value)
+        except BaseException:
+            self._keys, self._deleted = keys, deleted
+            for parent, before in children.items():
+                parent[:] = before
+            raise
+        if values:
+            self._changed()
+
+    def _set(self, key: str, value: Any) -> None:
         parent, old = self._path(key)
         faults: List[Problem] = []
         if isinstance(old, FileElement) and old.is_texture:
             new = array_of(value, key, faults, is_raw(parent))
         else:
             new = element_of(old.get("name", ""), _like(old, value, key), key, faults)
-        if new is not None and not _fits(old, new):
-            expected = _KINDS.get(old.tag, f"`{old.tag}`")
+        is_count = old.tag in _NUMBERS and parent.tag not in _COLORED
+        alike = _NUMBERS if is_count else _alike(old.tag)
+        if new is not None and new.tag not in alike and old.tag != "ref":
+            expected = "a number" if is_count else _KINDS.get(old.tag, f"`{old.tag}`")
             found = described(value) if new.tag in _KINDS else f"`{new.tag}`"
             faults.append(fault(key, f"expected {expected}, found {found}"))
         if faults or new is None:
@@ -113,7 +135,6 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         start = self._keys[old]
         self._keys = {each: key for each, key in self._keys.items() if each in inside}
         self._keys.update(keys_of(new, start, self._keys.values()))
-        self._changed()
 
     def __delitem__(self, key: str) -> None:
         """Takes its value out of the scene: the default is used."""
@@ -144,6 +165,10 @@ _SUFFIXED = {"rgb", "spectrum"}  # as Mitsuba's, `.value`
 # What may take each other's places
 _COLORS = {"float", "integer", "rgb", "spectrum", "texture", "volume"}
 _POINTS = {"vector", "point"}
+_NUMBERS = {"float", "integer"}
+
+# Objects whose numbers may be colours or textures
+_COLORED = set("bsdf emitter texture spectrum medium phase volume subsurface".split())
 
 # The elements of values, in words
 _KINDS = {
@@ -155,11 +180,10 @@ _KINDS = {
 }
 
 
-def _fits(old: ET.Element, new: ET.Element) -> bool:
-    """Whether a new element may take the place of another one."""
-    alike = next((tags for tags in (_COLORS, _POINTS) if old.tag in tags), {old.tag})
-    is_object = old.tag in OBJECTS or old.tag == "ref" or old.tag in _COLORS
-    return new.tag in alike or (is_object and new.tag == "ref") or old.tag == "ref"
+def _alike(tag: str) -> Set[str]:
+    """The elements that may take the place of another one."""
+    alike = next((tags for tags in (_COLORS, _POINTS) if tag in tags), {tag})
+    return alike | {"ref"} if tag in OBJECTS or tag in _COLORS else alike
 
 
 def _like(old: ET.Element, value: Any, key: str) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from ._errors import Problem, SceneError, UsageError, in_python, warn
 from ._image import Image, load
-from ._scene import Scene, load_dict
+from ._scene import Scene, scene_of
 from ._session import Listener, execute
 from ._values import described, plain
 
@@ -70,7 +70,7 @@ def render(
         raise TypeError(f"progress must be a function of a Progress, found {described(progress)}")
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
-        loaded = _scene(scene)  # whose files of arrays last as long as it
+        loaded = scene_of(scene)  # whose files of arrays last as long as it
         if loaded.has_arrays and any(
             os.fspath(x).lower().endswith(".film") for x in _items(outfile)
         ):
@@ -87,7 +87,7 @@ def render(
 def check(scene: Union[PathLike, Scene, Dict[str, Any]], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
     try:
-        printed, problems = _execute("check", _scene(scene), options)
+        printed, problems = _execute("check", scene_of(scene), options)
     except SceneError as error:
         return list(error.problems)
     if options.get("explain") or options.get("verbose"):
@@ -100,10 +100,9 @@ def version() -> str:
     return execute(["--version"])[0].rstrip("\n")
 
 
-def _scene(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
-    if isinstance(scene, dict):
-        return load_dict(scene)
-    return scene if isinstance(scene, Scene) else Scene(os.fsdecode(scene), None)
+def checked(scene: Scene) -> None:
+    """Raises the scene's errors."""
+    _execute("check", scene, {})
 
 
 def _execute(

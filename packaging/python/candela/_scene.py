@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
 from . import _files, _xml
-from ._errors import (
-    CandelaError, Keys, MissingFileError, Problem, SceneError, UsageError, missing,
-)
+from ._errors import CandelaError, Keys, Problem, SceneError, UsageError, missing
 from ._parameters import Parameters
 from ._values import described
 
@@ -21,7 +19,14 @@ if TYPE_CHECKING:
 PathLike = Union[str, "os.PathLike[str]"]
 
 
-def _missing(path: str) -> MissingFileError:
+def _is_text(name: str) -> bool:
+    """Whether it is that of a scene, and no name of a file."""
+    return "\n" in name or name.lstrip().startswith("<")
+
+
+def _missing(path: str) -> CandelaError:
+    if _is_text(path):
+        return UsageError("that is the text of a scene, and no file: candela.load_string reads it")
     return missing(path, "scene file", "E0101")
 
 
@@ -81,7 +86,8 @@ class Scene:
             try:
                 self._tree = _xml.of_text(self._whole())
             except ParseError as e:
-                line, column = e.position
+                self._refuse()
+                line, column = e.position  # what the program reads, Python doesn't
                 message = f"{self._name}:{line}:{column + 1}: error: {e.msg}"
                 fault = Problem("error", str(e.msg), message, self._name, line, column + 1)
                 raise SceneError(message, (fault,)) from None
@@ -101,15 +107,25 @@ class Scene:
         except UnicodeDecodeError:
             raise UsageError(f"{self._name} is no text in UTF-8") from None
 
+    def _refuse(self) -> None:
+        """Raises the program's error, if it finds one."""
+        from ._render import checked
+
+        checked(self)
+
     def read(self) -> None:
-        """Reads the file, if it is Mitsuba's; what can't be read is told where it is rendered."""
+        """Reads the file, if it is Mitsuba's; a folder and a picture are no scenes."""
         if not os.path.exists(self._name):
             raise _missing(self._name)
-        if self._name.lower().endswith(".xml"):
+        if os.path.isdir(self._name) or _is_picture(self._name):
+            self._refuse()
+        elif self._name.lower().endswith(".xml"):
             try:
-                self._text = self._whole()
-            except (OSError, UsageError):
-                pass
+                text = self._whole()
+                _xml.of_text(text)
+                self._text = text
+            except (OSError, UsageError, ParseError):
+                self._refuse()
 
     def _changed(self) -> None:
         if not self._of_dict and self._tree is not None:
@@ -213,6 +229,17 @@ def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:
     return Scene(name if folder is None else os.path.join(os.fspath(folder), name), text)
 
 
+def _is_picture(path: str) -> bool:
+    try:
+        with open(path, "rb") as file:
+            return file.read(4) in _PICTURES
+    except OSError:
+        return False
+
+
+# The first bytes of PNG, EXR, JPEG
+_PICTURES = (b"\x89PNG", b"\x76\x2f\x31\x01", b"\xff\xd8\xff\xe0", b"\xff\xd8\xff\xe1")
+
 # No scene consists of this
 _FILE_NAME = re.compile(r"[^\n\"<#]+\.(pbrt|xml|gltf|glb|obj|ply|stl)(\.gz)?", re.I)
 
@@ -221,12 +248,24 @@ def load_file(path: PathLike) -> Scene:
     """The scene of a file. Mitsuba's XML is read at once, without the files that it names; all
     others whenever they are rendered.
     """
-    scene = Scene(os.fspath(path), None)
+    scene = Scene(os.fsdecode(path), None)
     scene.read()
     return scene
 
 
-def traverse(scene: Scene) -> Parameters:
+def scene_of(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
+    """That of a file or a dict; a scene itself."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, dict):
+        return load_dict(scene)
+    name = os.fsdecode(scene)
+    if not os.path.exists(name) and _is_text(name):
+        raise _missing(name)
+    return Scene(name, None)
+
+
+def traverse(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Parameters:
     """The values of a scene by their names, as Mitsuba's ``traverse`` has them: what its text or
     dict says, without defaults.
 
@@ -234,4 +273,5 @@ def traverse(scene: Scene) -> Parameters:
     >>> values["light.intensity.value"] = [1, 2, 3]
     >>> values["ball.to_world"] = candela.Transform().translate([0, 1, 0])
     """
-    return scene.parameters()
+    loaded = scene_of(scene) if isinstance(scene, (Scene, dict)) else load_file(scene)
+    return loaded.parameters()

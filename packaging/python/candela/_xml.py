@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
+import re
 import xml.etree.ElementTree as ET
 from itertools import count
 from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple
@@ -23,7 +24,7 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
         raise error_of_faults([fault("", "expected a dict with 'type': 'scene'")])
     root = ET.Element("scene", version="3.0.0")
     for name, value in scene.items():
-        if name == "type":
+        if name == "type" or _is_dotted(name, name, faults):
             continue
         element = element_of(name, value, str(name), faults)
         if element is None:
@@ -119,6 +120,9 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         hint = ": use its dict" if type(value).__module__.startswith("mitsuba") else ""
         wrong(f"expected a number, a text, a dict or a transform, found {described(given)}{hint}")
         return None
+    if not all(map(math.isfinite, items)):
+        wrong(f"expected finite numbers, found {described(given)}")
+        return None
     if len(items) == 1:
         return leaf("float", repr(items[0]))
     return leaf("vector" if len(items) == 3 else "string", _numbers(items))
@@ -148,7 +152,7 @@ def _object(
     if isinstance(value.get("id"), str):
         tree.set("id", value["id"])
     for inner, each in value.items():
-        if inner in ("type", "id"):
+        if inner in ("type", "id") or _is_dotted(inner, f"{key}.{inner}", faults):
             continue
         if element == "shape" and inner in _MESH:
             advice = "candela.mesh(vertices, faces) is a mesh of arrays"
@@ -162,6 +166,15 @@ def _object(
         if child is not None:
             tree.append(child)
     return tree
+
+
+def _is_dotted(name: Any, key: str, faults: List[Problem]) -> bool:
+    """Whether a name has a dot, which is a fault."""
+    is_dotted = isinstance(name, str) and "." in name
+    if is_dotted:
+        help = f"write `{name.replace('.', '_')}`"
+        faults.append(fault(key, f"`{name}` has a `.`, which separates names", help=help))
+    return is_dotted
 
 
 def range_warnings(root: ET.Element) -> List[Problem]:
@@ -211,11 +224,13 @@ def _color(
         if isinstance(given, str):
             text = given
         elif isinstance(given, numbers.Real):
-            text = repr(float(given))
+            text = str(given) if isinstance(given, bool) else repr(float(given))
         elif kind == "rgb":
             text = _numbers([float(x) for x in given])
         else:  # pairs of a wavelength and a value
             text = ", ".join(f"{float(w)!r}:{float(x)!r}" for w, x in given)
+        if not _is_color_text(kind, text):
+            raise ValueError
     except (TypeError, ValueError):
         pairs = "a number, or pairs of wavelength and value"
         expected = "three numbers" if kind == "rgb" else pairs
@@ -225,6 +240,22 @@ def _color(
         return None
     element.set("value", text)
     return element
+
+
+def _is_color_text(kind: str, text: str) -> bool:
+    if "$" in text or kind == "rgb" and _HEXADECIMAL.fullmatch(text.strip()):
+        return True
+    try:
+        values = [float(x) for x in text.replace(",", " ").replace(":", " ").split()]
+    except ValueError:
+        return False
+    is_pairs = ":" in text and kind == "spectrum"
+    is_complete = len(values) % 2 == 0 if is_pairs else len(values) in _COUNTS[kind]
+    return bool(values) and is_complete and all(map(math.isfinite, values))
+
+
+_HEXADECIMAL = re.compile("#[0-9a-fA-F]{6}")
+_COUNTS = {"rgb": (1, 3), "spectrum": (1,)}
 
 
 def _is_color(value: Any) -> bool:
