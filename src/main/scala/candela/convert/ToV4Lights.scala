@@ -111,6 +111,7 @@ private object SpotEdge:
       val cosStart = cos(radians(start))
       val cosEnd = cosStart - (cosStart - cos(radians(end))) * ratio
       val isSharp = end == start
-      val changed = if isSharp then end else Math.toDegrees(Math.acos(Math.max(cosEnd, -1f))).toFloat
+      val changed =
+        if isSharp then end else Math.toDegrees(Math.acos(Math.max(cosEnd, -1f))).toFloat
       s.addFloat("coneangle", changed)
       s.addFloat("conedeltaangle", changed - start)
