@@ -28,14 +28,22 @@ private[job] object ForeignAdvice:
           val scene = if found.kind == Mitsuba then "a pbrt scene" else "a scene"
           val message = s"`$file` is ${found.what}, not $scene"
           Some(Problem.general(Code.NoScene, message, advice(found.kind, file)))
-        case None =>
-          Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):
-            val message = s"`$file` is not a scene: its first word is not a pbrt directive"
-            Problem.general(Code.NoScene, message, Some(Formats))
+        case None => SceneFormat.named(file) match
+            case None => Option.when(!mayBeOurs(source)):
+                val message = s"`$file` is not a scene: its first word is not a pbrt directive"
+                Problem.general(Code.NoScene, message, Some(Formats))
+            case Some(format) =>
+              Option.when(!format.hasDialects && firstWord(source).exists(Directives.all.contains)):
+                val message = s"`$file` is a pbrt scene, not a ${format.name} scene"
+                Problem.general(Code.NoScene, message, Some("its name must end with .pbrt"))
     finally source.close()
 
   /** Whether a text begins with a directive, though a mistyped one; or has nothing to tell by. */
   private def mayBeOurs(source: Source): Boolean =
+    firstWord(source).forall(Suggest.nearest(_, Directives.all.keys).isDefined)
+
+  /** None of a text that has nothing; an empty word if it begins with something else. */
+  private def firstWord(source: Source): Option[String] =
     val words = Tokenizer(source, None)
     val first = Try:
       words.advance()
@@ -43,7 +51,7 @@ private[job] object ForeignAdvice:
         case Token.End => None
         case Token.Word => Some(words.text)
         case _ => Some("")
-    first.toOption.flatten.forall(Suggest.nearest(_, Directives.all.keys).isDefined)
+    first.toOption.flatten
 
   private val Formats = s"supported scene formats: ${SceneFormat.inWords}"
 

@@ -85,6 +85,11 @@ class ForeignSceneSuite extends AnyFunSuite:
       val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
       val file = Files.writeString(folder.resolve("scene.txt"), scene)
       assert(Captured.run("check", s"$file")._1 == 0)
+      val misnamed = Files.writeString(folder.resolve("scene.xml"), scene)
+      assert(refusal("check", s"$misnamed") == Vector(
+        s"error: `$misnamed` is a pbrt scene, not a Mitsuba scene [E0102]",
+        " its name must end with .pbrt"
+      ))
       val mistyped = Files.writeString(folder.resolve("b.txt"), scene.replace("Camera", "Camra"))
       assert(refusal("check", s"$mistyped").head.startsWith(s"$mistyped:2:1: error: unknown"))
       val ours = Files.writeString(folder.resolve("c.pbrt"), "to do: lights\n")
