@@ -10,21 +10,11 @@ from collections.abc import MutableMapping
 from typing import Any, Callable, Dict, Iterator, List, Set, Tuple
 
 from ._arrays import ArrayFile
+from ._elements import OBJECTS, FileElement, is_object, keys_of
 from ._errors import Problem
 from ._transform import Transform
 from ._values import described, plain
-from ._xml import (
-    OBJECTS,
-    FileElement,
-    array_of,
-    element_of,
-    error_of_faults,
-    fault,
-    is_matrix,
-    is_object,
-    is_raw,
-    keys_of,
-)
+from ._xml import array_of, element_of, error_of_faults, fault, is_matrix, is_raw
 
 Path = Tuple[ET.Element, ET.Element]  # an element, with its parent
 
