@@ -20,7 +20,9 @@ private[image] object Bitmap:
   ): BufferedImage =
     val displayed = display(image)
     val isGray = displayed.indicesOf(Image.RgbNames).isEmpty && alpha.isEmpty
-    val sources = if isGray then Vector(displayed.colorChannels.head) else displayed.colorChannels
+    val colors = displayed.colorChannels
+    val sources = (if isGray then colors.take(1) else colors).toArray
+    val straight = alpha.orNull
     val picture = empty(displayed.width, displayed.height, isGray, alpha.isDefined, display.bits)
     val bands = picture.getRaster.getNumBands
     val codes = new Array[Int](bands * displayed.width)
@@ -28,12 +30,13 @@ private[image] object Bitmap:
     val dithers = display.dithers && display.bits == 8
     loop(displayed.height): y =>
       loop(displayed.width): x =>
-        loop(sources.size): c =>
+        loop(sources.length): c =>
           val value = encoded(displayed(x, y, sources(c)), displayed.encoding)
           val round = if dithers then threshold(x, y, c) else 0.5f
           codes(x * bands + c) = (value * maxCode + round).toInt
-        for a <- alpha do
-          codes(x * bands + 3) = (clamp(a(y * displayed.width + x), 0f, 1f) * maxCode + 0.5f).toInt
+        if straight != null then
+          val a = clamp(straight(y * displayed.width + x), 0f, 1f)
+          codes(x * bands + 3) = (a * maxCode + 0.5f).toInt
       picture.getRaster.setPixels(0, y, displayed.width, 1, codes)
     picture
 

@@ -4,7 +4,7 @@ import candela.base.loop
 import candela.build.media.Interiors
 import candela.color.{Cauchy, Rgb}
 import candela.diagnostics.{Code, Problem}
-import candela.image.{Image, ImageError, ImageFiles}
+import candela.image.{Image, ImageError, ImageFiles, StoredImage}
 import candela.io.FileName
 import candela.math.{clamp, lerp, square}
 import candela.scenefile.{
@@ -154,7 +154,8 @@ private[convert] object FromGltf:
     /** A channel of an image, as an image of its own. */
     private def channel(d: Declaration, change: Float => Float): Declaration =
       val key = (channelOf(d), change(0.4f) + 2 * change(0.6f))
-      val single = rewritten(d, key): image =>
+      val single = rewritten(d, key): stored =>
+        val image = stored.toImage
         val data = grays(d, image).map(change)
         Image(image.width, image.height, Vector("Y"), data, image.encoding)
       single.copy(params = single.params.filterNot(_.name == "channel"))
@@ -162,7 +163,7 @@ private[convert] object FromGltf:
     private def channelOf(d: Declaration): String = d.param("channel").fold("a")(_.strings.head)
 
     /** The declaration with another image, which is written once for each key. */
-    private def rewritten(d: Declaration, key: Any)(change: Image => Image): Declaration =
+    private def rewritten(d: Declaration, key: Any)(change: StoredImage => Image): Declaration =
       val at = d.param("filename").get
       readable(at):
         files.reused((RewrittenImages.file(d.folder, at).path, key)):
@@ -171,8 +172,8 @@ private[convert] object FromGltf:
         d.copy(params = d.params.map: p =>
           if p.name == "filename" then Param.string("filename", at.pos, relative(d, name)) else p)
 
-    private def load(d: Declaration, at: Param): Image =
-      ImageFiles.load(RewrittenImages.file(d.folder, at)).toImage
+    private def load(d: Declaration, at: Param): StoredImage =
+      ImageFiles.load(RewrittenImages.file(d.folder, at))
 
     /** What is made of an image; none, after a warning, if it can't be read. */
     private def readable[A](at: Param)(use: => A): Option[A] =
@@ -349,7 +350,8 @@ private[convert] object FromGltf:
       image.fold(rgb("reflectance", tint.map(change), d)): t =>
         val name = s"texture ${added.size + 1} $label"
         val result = rewritten(extracted(t), (label, tint)): image =>
-          image.toReflectances.mapped(c => (c * tint).map(change))
+          val colors = image.toReflectances
+          colors.mapped(c => (c * tint).map(change), colors.data)
         add(name, texture(result), "spectrum")
         Param.texture("reflectance", d.pos, name)
 
@@ -369,7 +371,7 @@ private[convert] object FromGltf:
       val invert = t.param("invert").exists(_.bools.contains(true))
       val at = t.param("filename").get
       readable(at)(load(t, at)).fold(1f): image =>
-        val x = grays(t, image).map(v => square(scale * (if invert then 1f - v else v)))
+        val x = grays(t, image.toImage).map(v => square(scale * (if invert then 1f - v else v)))
         x.sum / x.length
 
     private def bumps(d: Declaration): Vector[Param] =

@@ -212,7 +212,7 @@ private[convert] object SpectralColors:
   /** Mean colour of an image. */
   private def mean(d: Declaration, p: Param): Option[Rgb] =
     val file = d.folder.locate(p.strings.head, Some(p.valuesAt))
-    file.flatMap(f => Try(ImageFiles.load(f).toImage.linear.toRgb).toOption).map: image =>
+    file.flatMap(f => Try(ImageFiles.load(f).toRgb).toOption).map: image =>
       val sums = new Array[Double](3)
       loop(image.data.length)(i => sums(i % 3) += image.data(i))
       val n = image.data.length / 3
