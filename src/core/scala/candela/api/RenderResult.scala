@@ -15,7 +15,9 @@ final class RenderResult private[api] (
     estimate: Option[RenderedImage],
     found: Vector[candela.diagnostics.Problem]
 ):
-  /** Whether all planned samples were taken, or a goal was reached; false if cancelled. */
+  /** Whether all planned samples were taken, or a goal was reached; false if cancelled, or if time
+    * was out before every pixel had a sample.
+    */
   def isComplete: Boolean = rendering.isComplete
 
   /** Minimum samples per pixel, including earlier runs. */

@@ -5,7 +5,7 @@ import candela.image.{EncodedImage, Image}
 import candela.job.ImageFile
 import candela.render.Rendering
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 import java.util.List as JList
 
 import scala.jdk.CollectionConverters.*
@@ -15,6 +15,7 @@ import scala.jdk.CollectionConverters.*
   */
 final class RenderedImage private[api] (
     image: Image,
+    hasSamples: Boolean,
     encode: Path => EncodedImage
 ):
   def width: Int = image.width
@@ -69,13 +70,18 @@ final class RenderedImage private[api] (
     channelIndex
 
   /** Writes a file in the format of its name: `.exr` with all channels, `.pfm` with the colours,
-    * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. If it fails, an existing file stays.
+    * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. If it fails, an existing file stays; so
+    * it does if the image has less than one sample per pixel.
     *
     * @throws SceneException if it can't be written
     */
   def save(file: Path): Unit = Problems.thrown:
     val help = "save a file, and copy it there; or write what `bytes` returns"
-    encode(Problems.onDisk(file, Code.Unwritable, help)).save()
+    val target = Problems.onDisk(file, Code.Unwritable, help)
+    if !hasSamples && Files.isRegularFile(target) then
+      val message = s"`$file` stays: the new image has less than 1 sample per pixel"
+      Problems.fail(Code.Unwritable, message, Some("save it by another name"))
+    encode(target).save()
 
   /** The bytes that [[save]] writes in a format: `exr`, `png` or another suffix of a file.
     *
@@ -96,8 +102,9 @@ private[api] object RenderedImages:
       rendering: Rendering,
       denoiser: Option[String]
   ): RenderedImage =
-    RenderedImage(image, files.encoded(_, image, rendering, denoiser = denoiser))
+    val hasSamples = rendering.samplesDone > 0
+    RenderedImage(image, hasSamples, files.encoded(_, image, rendering, denoiser = denoiser))
 
   /** Any other image. */
   def plain(image: Image): RenderedImage =
-    RenderedImage(image, ImageFile.encoded(_, image))
+    RenderedImage(image, hasSamples = true, ImageFile.encoded(_, image))

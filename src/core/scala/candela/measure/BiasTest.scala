@@ -224,9 +224,13 @@ object BiasTest:
       Option.unless(isEqual):
         val floor = Math.pow(rounding * scale, 2)
         val variance = p.variance + q.variance
-        // Welch and Satterthwaite; what rounding adds is known
-        val welch = Math.pow(variance + floor, 2) /
-          (Math.pow(p.variance, 2) / p.freedom + Math.pow(q.variance, 2) / q.freedom)
+        // Welch and Satterthwaite, of the noise alone: where few images happen to agree, what
+        // rounding adds tells nothing of how much they do otherwise
+        val welch =
+          if variance == 0 then Double.PositiveInfinity
+          else
+            val share = p.variance / variance
+            1 / (share * share / p.freedom + (1 - share) * (1 - share) / q.freedom)
         val freedom = Math.min(welch, Estimate.maxFreedom(p, q))
         val error = Math.sqrt(variance + floor)
         val chance = 2 * TDistribution.of(freedom).survivalProbability(apart / error)

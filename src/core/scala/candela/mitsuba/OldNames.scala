@@ -33,7 +33,7 @@ private[mitsuba] final class OldNames(minor: Int):
       // Often `nan`
       case "spectrum" if parent == "integrator field" =>
         text("undefined", e("value").getOrElse(""), plain)
-      case "spectrum" if isWhite(plain, parent) => plain.copy(tag = "rgb")
+      case "spectrum" if isWhite(plain, parent) || isThree(plain) => plain.copy(tag = "rgb")
       case "boolean" if minor < 4 && attributes.get("name").contains("map_smaller_side") =>
         val axis = if e("value").contains("false") then "larger" else "smaller"
         text("fov_axis", axis, plain)
@@ -76,9 +76,17 @@ private[mitsuba] final class OldNames(minor: Int):
     parent.startsWith("emitter ") && e("type").isEmpty &&
       e("value").exists(v => Decimal.double(v.trim).isDefined)
 
+  /** Without wavelengths there are as many values as spectra have: three, red, green and blue, in
+    * the usual build.
+    */
+  private def isThree(e: Element): Boolean =
+    e("type").isEmpty && e("value").exists(v => !v.contains(':') && words(v).length == 3)
+
+  private def words(text: String): Array[String] = text.split("[\\s,]+").filter(_.nonEmpty)
+
   /** As linear colour. */
   private def decoded(e: Element): Element =
-    val words = e("value").getOrElse("").split("[\\s,]+").filter(_.nonEmpty)
+    val words = this.words(e("value").getOrElse(""))
     val encoded =
       if words.length == 1 && words(0).startsWith("#") then
         words(0).drop(1).grouped(2).toVector

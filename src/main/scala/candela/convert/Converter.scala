@@ -74,11 +74,12 @@ object Converter:
     val leavesV4 = from == Dialect.V4 && to != Dialect.V4
     val started =
       if leavesV4 then solid.copy(scene = InstanceMotions.fromV4(solid.scene)) else solid
-    val converted = (foreignDeclarations(translated.scene) ++ passes(from, to)).foldLeft(started):
-      (previous, pass) =>
-        val run = PassRun(pass, previous.scene, files, baking, from -> to)
-        val result = run.result()
-        Converted(result, previous.warnings ++ run.warnings)
+    val converted =
+      (foreignDeclarations(translated.scene, to) ++ passes(from, to)).foldLeft(started):
+        (previous, pass) =>
+          val run = PassRun(pass, previous.scene, files, baking, from -> to)
+          val result = run.result()
+          Converted(result, previous.warnings ++ run.warnings)
     val bounded = withoutBacks(converted)
     val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
     // Those of others are read before
@@ -150,11 +151,13 @@ object Converter:
 
   private def program(d: Dialect) = s"pbrt-${d.toString.toLowerCase}"
 
-  /** Declarations of another dialect than the scene's come first: then it is of one dialect. */
-  private def foreignDeclarations(scene: SceneDescription): Vector[Pass] =
+  /** Declarations of another dialect than the scene's come first: then it is of one dialect. Those
+    * of the target's stay as they are.
+    */
+  private def foreignDeclarations(scene: SceneDescription, to: Dialect): Vector[Pass] =
     var isMixed = false
     val _ = Declarations.map(scene): d =>
-      isMixed ||= d.dialect.exists(_ != scene.dialect)
+      isMixed ||= d.dialect.exists(d => d != scene.dialect && d != to)
       d
     Option.when(isMixed && scene.dialect == Dialect.V4)(ToV4View.pass.forForeign).toVector
 

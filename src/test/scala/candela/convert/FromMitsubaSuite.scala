@@ -2,6 +2,7 @@ package candela.convert
 
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription}
+import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 
@@ -76,6 +77,15 @@ class FromMitsubaSuite extends AnyFunSuite:
     val facets = "<string name=\"distribution\" value=\"as\"/>"
     val (_, wider) = converted(s"<bsdf type=\"roughconductor\">$facets</bsdf>")
     assert(wider.mkString.contains("no distribution `phong`"))
+
+  test("what becomes pbrt-v3's materials stays in v3, and is approximated in v4"):
+    def material(to: Dialect) =
+      TempFolder.use: folder =>
+        val scene = Converter.convert(read("<bsdf type=\"principled\"/>"), to, folder).scene
+        scene.shapes.head.material match
+          case MaterialRef.Inline(d) => d.name
+          case other => fail(other.toString)
+    assert(material(Dialect.V3) == "disney" && material(Dialect.V4) == "diffuse")
 
   test("grids on surfaces become their mean"):
     val file = Path.of("scenes/mitsuba/colors.vol").toAbsolutePath

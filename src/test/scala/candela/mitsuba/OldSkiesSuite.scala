@@ -70,3 +70,8 @@ class OldSkiesSuite extends OldScenes:
   test("a single value of a light's spectrum is white"):
     val light = "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"2\"/></emitter>"
     isNear(mean(sensor(more = fov) + light, "0.5.0"), Rgb.gray(2f), 1e-3f)
+
+  test("a spectrum of three values is a colour"):
+    val light =
+      "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"1, 2 .5\"/></emitter>"
+    isNear(mean(sensor(more = fov) + light, "0.6.0"), Rgb(1f, 2f, 0.5f), 1e-3f)

@@ -28,7 +28,7 @@ class PlyFormatSuite extends AnyFunSuite:
   test("z points up, and surfaces without normals are flat"):
     val scene = model("", "0 0 0\n1 0 0\n0 1 0", "3 0 1 2")
     assert(scene.errors.isEmpty && floats(scene.shapes.head.shape, "N").isEmpty)
-    assert(scene.additions.get.contains("z points up: --up y changes that"))
+    assert(scene.additions.get.contains("z points up, turned to y: --up y changes that"))
     val place = scene.shapes.head.objectToWorld.start.point(candela.math.Vec3(0, 0, 1))
     assert((place - candela.math.Vec3(0, 1, 0)).length < 1e-6f)
 

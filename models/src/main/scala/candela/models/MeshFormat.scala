@@ -70,7 +70,8 @@ private[models] object MeshFormat:
     val opposite = if usual == UpAxis.Y then UpAxis.Z else UpAxis.Y
     def word(a: UpAxis) = a.toString.toLowerCase
     val upward = Option.when(asked.isEmpty):
-      s"${word(usual)} points up: --up ${word(opposite)} changes that"
+      val turned = if usual == UpAxis.Z then ", turned to y" else ""
+      s"${word(usual)} points up$turned: --up ${word(opposite)} changes that"
     scene.copy(additions = Some((scene.additions ++ upward).mkString("; ")).filter(_.nonEmpty))
 
   def shape(mesh: Mesh, surface: Surface, at: SourcePos, session: Session): ShapeDescription =

@@ -95,7 +95,7 @@ class AssimpFormatSuite extends AnyFunSuite:
 
   test("which axis points up is said where files leave it open"):
     val scene = read("a.off", off)
-    assert(scene.additions.exists(_.contains("z points up: --up y changes that")))
+    assert(scene.additions.exists(_.contains("z points up, turned to y: --up y changes that")))
     assert(!read("a.fbx", fbx("")).additions.exists(_.contains("points up")))
     assert(positions(scene).exists(_ == Vector(0, 1000, 0)))
     val turned = read("a.off", off, MeshFormats.up(UpAxis.Y))
