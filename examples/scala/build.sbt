@@ -1,6 +1,7 @@
-// `sbt -Dcandela.version=… run`: a program that depends on the library.
+// `sbt "run ../scene.pbrt"`: a program that depends on the library.
 scalaVersion := "3.3.7"
-libraryDependencies += "io.github.candela-renderer" %% "candela-core" % sys.props("candela.version")
+libraryDependencies += "io.github.candela-renderer" %% "candela-core" %
+  sys.props.getOrElse("candela.version", "0.1.0-SNAPSHOT")
 fork := true
 run / javaOptions ++= Seq(
   "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED", // SIMD

@@ -2,7 +2,7 @@ package candela.api
 
 import candela.base.JavaHeap
 import candela.diagnostics.{Code, SceneError}
-import candela.image.{ImageError, MissingNatives}
+import candela.image.{ImageError, MissingNatives, Natives}
 import candela.render.Costs
 
 import java.nio.file.{FileSystems, Path}
@@ -37,6 +37,9 @@ private[api] object Problems:
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
+      case e: LinkageError if Natives.missing(e).nonEmpty =>
+        val (message, help) = Natives.missing(e).get
+        fail(Code.MissingLibrary, message, Some(help))
       case _: OutOfMemoryError => throw FullHeap
 
   /** Runs `body`, unless its thread is interrupted, which remains so.

@@ -71,6 +71,11 @@ object Natives:
 
   /** The missing library and the cure, if that is the cause of `e`. */
   def missing(e: Throwable): Option[(String, String)] = e match
+    case l: UnsatisfiedLinkError if String.valueOf(l.getMessage).contains("another classloader") =>
+      Some((
+        "the native libraries that read and write images belong to another class loader",
+        "load LWJGL, and those libraries, by a class loader that both share"
+      ))
     case l: LinkageError if isOfLwjgl(l) =>
       val folder = sys.props.getOrElse(PathProperty, s"lib/natives/$platform")
       Some((

@@ -81,21 +81,6 @@ class LibrarySuite extends AnyFunSuite:
     assert(asked > 0 && System.nanoTime - asked < 60_000_000_000L)
     assert(!result.isComplete && result.samplesPerPixel >= 1 && result.image.mean("R") > 0)
 
-  test("an image without samples replaces no file, but can be a new one"):
-    TempFolder.use: folder =>
-      val stop = Cancellation()
-      stop.cancel()
-      val control = RenderControl().withThreads(1).withCancellation(stop)
-      val result = rendered(LibraryScenes.built().scene(), endless, control)
-      assert(result.samplesPerPixel == 0)
-      val file = folder.resolve("a.png")
-      val _ = Files.write(file, Array[Byte](7))
-      val refused = intercept[SceneException](result.image.save(file))
-      assert(refused.getMessage.contains("less than 1 sample per pixel"))
-      assert(Files.readAllBytes(file).toVector == Vector[Byte](7))
-      result.image.save(folder.resolve("b.png"))
-      assert(Files.size(folder.resolve("b.png")) > 7)
-
   test("closing a job ends its rendering, which returns its image so far"):
     val stop = Cancellation()
     val job = LibraryScenes.built().scene().prepare(endless, 2)

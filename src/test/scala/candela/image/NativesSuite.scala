@@ -22,6 +22,10 @@ class NativesSuite extends AnyFunSuite:
     val later = NoClassDefFoundError("Could not initialize class org.lwjgl.stb.STBImage")
     assert(Natives.missing(later).isDefined)
     assert(Natives.missing(NoClassDefFoundError("candela/Foo")).isEmpty)
+    // As the JVM says it
+    val elsewhere =
+      UnsatisfiedLinkError("Native Library /x/liblwjgl.so already loaded in another classloader")
+    assert(Natives.missing(elsewhere).get._1.contains("belong to another class loader"))
     assert(Natives.missing(RuntimeException("lwjgl")).isEmpty)
 
   test("who lacks a native library is told which dependency has it, before LWJGL prints advice"):
