@@ -288,7 +288,7 @@ private[mitsuba] object Transforms:
           number(_, e.pos)
         regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
-        val reason = "origin equals target, or up is parallel to the view direction"
+        val reason = "origin equals target, or up is zero or parallel to the view direction"
         val (origin, target) = (list("origin"), list("target"))
         val stated = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 0.0)
         val up = if stated.forall(_ == 0.0) then across(origin, target) else stated

@@ -126,7 +126,7 @@ object Directives:
 
   /** pbrt-v2 and v3 go on, v4 stops. */
   private def noUp(in: Arguments, inV4: Boolean): Transform =
-    val message = "transform can't be inverted: up is parallel to the view direction"
+    val message = "transform can't be inverted: up is zero or parallel to the view direction"
     if inV4 then throw SceneError(Problem.error(Code.Transform, in.pos, message))
     in.report(Problem.warning(Code.Transform, in.pos, s"$message; LookAt is ignored, as pbrt does"))
     Transform.Identity

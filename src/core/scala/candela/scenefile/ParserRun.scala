@@ -113,7 +113,7 @@ private[scenefile] final class ParserRun(
       // Without its WorldBegin every statement is misplaced; the cause is already reported, or is
       // this:
       case None if problems.errors == 0 =>
-        val hint = "it is a file to Include, not a scene"
+        val hint = "it is empty, or a file to Include"
         problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $hint"))
       case None => ()
       case Some(begin) =>
