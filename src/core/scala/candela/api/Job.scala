@@ -147,11 +147,14 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     RenderResult(
       rendering,
       image(rendering, developed, denoising.map(_.describe)),
-      recorder.flatMap(_.errorAt(rendering.samplesDone)).orElse(savedError),
+      error(rendering.samplesDone, recorder).orElse(savedError),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
       problems.toVector ++ goal.flatMap(MissedGoal.problem(_, rendering)) ++
         EmptyImage.problem(prepared, rendering, developed)
     )
+
+  private def error(samples: Int, recorder: Option[ErrorRecorder]): Option[Double] =
+    if samples < GoalRule.MinSamples then None else recorder.flatMap(_.errorAt(samples))
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =
     RenderedImages.of(image, files, rendering, denoiser)

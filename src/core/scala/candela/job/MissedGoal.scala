@@ -14,9 +14,12 @@ object MissedGoal:
         s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
           s"not ${Figures.duration(asked)}"
       val error = rule.goal.error.map: asked =>
-        val estimate = rule.errorAt(rendering.samplesDone)
-        val formatted = estimate.fold("not known")(e => s"${Figures.percentage(e)}")
-        s"the error is $formatted, not ${Figures.percentage(asked)}"
+        if rendering.samplesDone < GoalRule.MinSamples then
+          s"an error is known from ${GoalRule.MinSamples} samples per pixel on"
+        else
+          val estimate = rule.errorAt(rendering.samplesDone)
+          val formatted = estimate.fold("not known")(e => s"${Figures.percentage(e)}")
+          s"the error is $formatted, not ${Figures.percentage(asked)}"
       val planned = Figures.count(rendering.samplesPerPixel, "sample")
       val message = s"${(error ++ time).mkString(", and ")}: all $planned per pixel are taken"
       Problem(Code.MissedGoal, Severity.Warning, None, message, Some(advice(rule.bySamples)))

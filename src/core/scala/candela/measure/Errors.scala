@@ -34,7 +34,7 @@ object Errors:
   /** Error against a reference, which may have an [[ErrorLayer]]. */
   def against(reference: Image)(image: Image): Errors =
     val pair = ImagePair(image, reference)
-    val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
+    val flip = Option.when(pair.isColor)(Flip.mean(pair))
     quickly(reference)(image).copy(flip = flip)
 
   /** Error against a reference, without FLIP, which takes by far the longest. */

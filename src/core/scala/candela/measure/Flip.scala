@@ -26,16 +26,24 @@ object Flip:
   // §4.2: exponent of feature differences.
   private val FeatureExponent = 0.5
 
-  /** Error of each pixel. NaN and infinite pixels count as black. */
+  /** Error of each pixel; 0 where one image isn't finite, which is as if both were black there. */
   def map(pair: ImagePair, pixelsPerDegree: Double = PixelsPerDegree): Image =
-    val image = Opponent.of(pair.image)
-    val reference = Opponent.of(pair.reference)
+    val finite = pair.withBlackGaps
+    val image = Opponent.of(finite.image)
+    val reference = Opponent.of(finite.reference)
     val colors = colorDifference(image, reference, pixelsPerDegree)
     val features = featureDifference(image, reference, pixelsPerDegree)
     val data = new Array[Float](pair.width * pair.height)
     loop(data.length): i =>
-      data(i) = Math.pow(colors(i), 1 - features(i)).toFloat
+      if pair.isFinite(i % pair.width, i / pair.width) then
+        data(i) = Math.pow(colors(i), 1 - features(i)).toFloat
     Image(pair.width, pair.height, Vector("Y"), data)
+
+  /** Mean over the pixels that are finite in both images. */
+  def mean(pair: ImagePair): Double =
+    val finite = (0 until pair.width * pair.height).count: i =>
+      pair.isFinite(i % pair.width, i / pair.width)
+    map(pair).data.foldLeft(0.0)(_ + _) / finite
 
   private def colorDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
     val labA = a.filtered(ppd).lab

@@ -42,6 +42,15 @@ final class ImagePair private (val image: Image, val reference: Image):
       then finite = false
     finite
 
+  /** The pair with black pixels in both images where one has a pixel that isn't finite. */
+  def withBlackGaps: ImagePair =
+    val gaps = (0 until width * height).filterNot(i => isFinite(i % width, i / width))
+    def blackened(from: Image): Image =
+      val data = from.data.clone
+      for i <- gaps do loop(channels.size)(c => data(i * channels.size + c) = 0f)
+      Image(width, height, channels, data)
+    if gaps.isEmpty then this else new ImagePair(blackened(image), blackened(reference))
+
   def cropped(window: PixelWindow): ImagePair =
     new ImagePair(window.of(image), window.of(reference))
 

@@ -28,5 +28,9 @@ class MissedGoalSuite extends AnyFunSuite:
     assert(early.matches(raw"the rendering ended after [\d.]+ m?s, not .*: " + why))
     val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
     assert(both.contains("not 0.01 %, and the rendering ended after "))
+    val few = GoalRule(RenderGoal(error = Some(0.9)), 2, ErrorRecorder(Development(), None))
+    val fewSamples = TinyPlan(width = 4, height = 3, spp = 2)((_, s) => Rgb.gray(s.next1D()))
+    val known = MissedGoal.problem(few, Renderer.render(fewSamples, RenderControl(1, rule = few)))
+    assert(known.get.message.startsWith("an error is known from 4 samples per pixel on: all 2 "))
     assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
     assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)

@@ -38,12 +38,19 @@ class FlipSuite extends AnyFunSuite:
     val (a, b) = (scene(0.7, 0.1), scene(0, 0))
     assert(Math.abs(mean(a, b) - mean(b, a)) < 1e-9)
 
-  test("what a screen clamps is not seen, and pixels that are no numbers are black"):
+  test("what a screen clamps is not seen, and pixels that are no numbers are left out"):
     val (a, b) = (scene(0, 0), scene(0, 0))
     a.data(3 * (8 * 48 + 10) + 2) = 1000f
     assert(mean(a, b) == 0)
     a.data(0) = Float.NaN
     a.data(1) = Float.PositiveInfinity
     a.data(2) = Float.NegativeInfinity
-    for c <- 0 until 3 do b.data(c) = 0f
     assert(mean(a, b) == 0)
+    // The mean is that of the others
+    val (black, white) = (Image.rgb(48, 32), Image.rgb(48, 32))
+    java.util.Arrays.fill(white.data, 1f)
+    white.data(0) = Float.NaN
+    val pair = ImagePair(white, black)
+    val map = Flip.map(pair)
+    assert(map.data(0) == 0 && map.data(1) > 0)
+    assert(Math.abs(Flip.mean(pair) - map.data.map(_.toDouble).sum / (48 * 32 - 1)) < 1e-9)

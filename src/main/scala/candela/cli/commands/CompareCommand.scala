@@ -12,7 +12,7 @@ import candela.cli.files.{FileRegister, InputImages, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat}
-import candela.measure.{ErrorLayer, ErrorMap, HeatMap, ImagePair, Metric, Metrics, OwnError}
+import candela.measure.{ErrorLayer, ErrorMap, Flip, HeatMap, ImagePair, Metrics, OwnError}
 
 /** `candela compare`: measures the error of an image, or of each image of a folder, against a
   * reference.
@@ -192,7 +192,7 @@ object Comparison:
 
   def apply(pair: ImagePair): Comparison =
     val metrics = Metrics.compare(pair.image, pair.reference)
-    val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
+    val flip = Option.when(pair.isColor)(Flip.mean(pair))
     Comparison(pair, metrics, flip)
 
   /** The relative error, as `--error` has it. */

@@ -26,9 +26,9 @@ private[cli] object FilmInput:
   def options(film: FilmFile, now: Options): Options =
     if FilmHeaders.isMadeInCode(film.header) then
       FilmKeeper.fail(
-        Code.NoSuchScene,
+        Code.OtherRendering,
         s"a program has made the scene of `${film.path}`, which is in no file",
-        "that program continues it: RenderControl.withFilm of the library"
+        "that program continues it, and has its image: RenderControl.withFilm of the library"
       )
     val scene = resolve(film, film.header.scene)
     val file = OutputFiles.path(scene)
