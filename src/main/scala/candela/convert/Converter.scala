@@ -48,7 +48,9 @@ object Converter:
     val isOfOthers = Dialect.ofOthers(scene.dialect)
     val from = scene.dialect.base
     val translated =
-      if isOfOthers then ofOthers(scene, to, files) else Converted(scene, Vector.empty)
+      if isOfOthers then ofOthers(scene, to, files)
+      else if from == Dialect.V2 && to != from then Converted(FromV2.chains(scene), Vector.empty)
+      else Converted(scene, Vector.empty)
     val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =
       if scene.dialect == Dialect.Mitsuba then

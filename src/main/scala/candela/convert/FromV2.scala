@@ -1,7 +1,7 @@
 package candela.convert
 
 import candela.diagnostics.Code
-import candela.scenefile.{Dialect, ShapeDescription}
+import candela.scenefile.{Dialect, Param, SceneDescription, ShapeDescription}
 
 /** Options, lights and shapes, from v2 to v3. */
 object FromV2:
@@ -105,6 +105,28 @@ object FromV2:
       "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
     )
   )
+
+  /** Metropolis light transport is a renderer in v2, in place of the integrator, and one of v3's
+    * integrators.
+    */
+  def chains(scene: SceneDescription): SceneDescription =
+    scene.renderer.filter(_.name == "metropolis").fold(scene): d =>
+      def number(name: String, from: String, default: Int) =
+        Param.int(name, d.pos, d.param(from).flatMap(_.ints.headOption).getOrElse(default))
+      val large = d.param("largestepprobability").flatMap(_.floats.headOption).getOrElse(0.25f)
+      val params = Vector(
+        number("maxdepth", "maxdepth", 7),
+        number("mutationsperpixel", "samplesperpixel", 100),
+        number("bootstrapsamples", "bootstrapsamples", 100000),
+        Param.float("largestepprobability", d.pos, large)
+      )
+      val mlt = d.copy(
+        category = "Integrator",
+        name = "mlt",
+        params = params,
+        dialect = Some(Dialect.V3)
+      )
+      scene.copy(renderer = None, integrator = Some(mlt))
 
   private val lightSamples = Step("`nsamples`", "`samples`"): s =>
     for p <- s.take("nsamples") do s.add("samples", p)

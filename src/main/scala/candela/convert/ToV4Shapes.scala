@@ -96,4 +96,5 @@ object ToV4Shapes:
       case None =>
         if s.reverseOrientation && s.areaLight.nonEmpty && Meshes.hasNormals(s.shape) then
           run.warn(Code.Inexpressible, s.shape.pos, Meshes.OtherSide)
+        for loss <- Meshes.lampLoss(s) do run.warn(Code.Inexpressible, s.shape.pos, loss)
         Vector(s)

@@ -59,12 +59,12 @@ object ConverterSuite:
         "v4-defaults-bare v4-defaults-emission v4-defaults-lights v4-defaults-shapes " +
         "v4-depth-of-field v4-dielectric v4-diffuse-transmission v4-environment-map " +
         "v4-filter-gaussian v4-filter-mitchell " +
-        "v4-instances v4-lights v4-media v4-mirrored-glass v4-motion " +
+        "v4-instances v4-media v4-mirrored-glass v4-motion " +
         "v4-panorama v4-realistic v4-simplepath v4-sppm"
     val inV4 =
       "v2-alpha v2-defaults-bare v2-filter-gaussian v2-filter-triangle v2-motion v2-panorama " +
-        "v2-textures v3-curves v3-defaults-bare v3-defaults-emission v3-defaults-lights " +
-        "v3-defaults-noise v3-filter-mitchell v3-filter-sinc v3-fog v3-lights v3-media " +
+        "v2-textures v3-curves v3-defaults-bare v3-defaults-lights " +
+        "v3-defaults-noise v3-filter-mitchell v3-filter-sinc v3-fog v3-media " +
         "v3-meshes v3-mirrored-glass v3-motion v3-orthographic-crop v3-panorama v3-quadrics " +
         "v3-textures"
     (inV3.split(' ').map(_ -> Dialect.V3) ++ inV4.split(' ').map(_ -> Dialect.V4)).toSet
@@ -80,7 +80,7 @@ object ConverterSuite:
       "v2-defaults-emission" -> 12.75,
       "v2-defaults-lights" -> 0.5,
       "v2-defaults-noise" -> 22.1,
-      "v2-metropolis" -> 8.2,
+      "v2-metropolis" -> 0.4,
       "v2-procedural" -> 3.4,
       "v2-subsurface" -> 0.35,
       "v2-volumes" -> 1.3,

@@ -210,6 +210,27 @@ class MeaningSuite extends AnyFunSuite:
       assert(warnings("").isEmpty)
       assert(warnings("AreaLightSource \"diffuse\"") == Vector(Meshes.OtherSide))
 
+  test("lamps that both dialects have, and show otherwise, are a warning"):
+    def warnings(shape: String) =
+      converted(s"AreaLightSource \"diffuse\" $shape", Dialect.V3, Dialect.V4).warnings
+        .map(_.message)
+    for kind <- Vector("sphere", "disk", "cylinder") do
+      assert(warnings(s"Scale 1 1 -1 Shape \"$kind\"").exists(_.contains("a mirrored quadric")))
+      assert(!warnings(s"Shape \"$kind\"").exists(_.contains("a mirrored quadric")))
+    val net = "Shape \"loopsubdiv\" \"integer indices\" [0 2 1 0 1 3 1 2 3 2 0 3] \"point P\" " +
+      "[0 0 0 1 0 0 0 1 0 0 0 1]"
+    assert(warnings(net).exists(_.contains("at its silhouettes")))
+
+  test("v2's Metropolis renderer is v3's integrator"):
+    val renderer = "Renderer \"metropolis\" \"integer maxdepth\" 3\nWorldBegin\nWorldEnd"
+    TempFolder.use: folder =>
+      val scene = SceneTexts.parse(renderer, Dialect.V2, folder)
+      for to <- Vector(Dialect.V3, Dialect.V4) do
+        val made = Converter.convert(scene, to, folder)
+        val d = made.scene.integrator.get
+        assert(d.name == "mlt" && d.param("maxdepth").get.ints.head == 3)
+        assert(!made.warnings.exists(_.message.contains("metropolis")))
+
   test("a reversed lamp with normals is a warning: v3 lights its other side"):
     val lamp =
       "AreaLightSource \"diffuse\" ReverseOrientation Shape \"trianglemesh\" \"point3 P\" " +
