@@ -117,7 +117,7 @@ final class ForgivenSuite extends AnyFunSuite:
       assertMean(d, triangle, 1f, "LookAt is ignored", place = place)
     val text = scene(Dialect.V4, triangle, screen, place)
     val error = intercept[candela.diagnostics.SceneError](SceneTexts.parse(text, Dialect.V4))
-    assert(error.problems.exists(_.message.contains("up is parallel")))
+    assert(error.problems.exists(_.message.contains("up is zero or parallel")))
 
   test("fields of view beyond 0 and 180 degrees are rendered"):
     def camera(fov: Int) = s"\"perspective\" \"float fov\" $fov"
