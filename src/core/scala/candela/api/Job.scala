@@ -135,10 +135,11 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       catch
         case e: RenderFailure =>
           throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
+    val errorRecorder = recorder.filter(_ => rendering.samplesDone >= GoalRule.MinSamples)
     // Of a film that had all samples, no others tell the error
     def savedError =
       for
-        _ <- recorder
+        _ <- errorRecorder
         error <- keeper.flatMap(_.savedError(rendering.samplesDone))
       yield Math.sqrt(error.estimate)
     val denoising =
@@ -147,14 +148,11 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     RenderResult(
       rendering,
       image(rendering, developed, denoising.map(_.describe)),
-      error(rendering.samplesDone, recorder).orElse(savedError),
+      errorRecorder.flatMap(_.errorAt(rendering.samplesDone)).orElse(savedError),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
       problems.toVector ++ goal.flatMap(MissedGoal.problem(_, rendering)) ++
         EmptyImage.problem(prepared, rendering, developed)
     )
-
-  private def error(samples: Int, recorder: Option[ErrorRecorder]): Option[Double] =
-    if samples < GoalRule.MinSamples then None else recorder.flatMap(_.errorAt(samples))
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =
     RenderedImages.of(image, files, rendering, denoiser)

@@ -37,9 +37,10 @@ private[api] object Problems:
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
-      case e: LinkageError if Natives.missing(e).nonEmpty =>
-        val (message, help) = Natives.missing(e).get
-        fail(Code.MissingLibrary, message, Some(help))
+      case e: LinkageError =>
+        Natives.missing(e).fold(throw e)((what, help) =>
+          fail(Code.MissingLibrary, what, Some(help))
+        )
       case _: OutOfMemoryError => throw FullHeap
 
   /** Runs `body`, unless its thread is interrupted, which remains so.

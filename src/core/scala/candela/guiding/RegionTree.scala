@@ -33,7 +33,9 @@ private[guiding] final class RegionTree(axis: Array[Int], split: Array[Float], b
     -1 - next
 
 private object RegionTree:
-  /** Numbers of a node, the first of its children, and the places of the others. */
+  /** Numbers of a node: first of its children, axis, place of the plane. A power of two, so that no
+    * node lies in two cache lines.
+    */
   inline val Size = 4
   inline val Axis = 1
   inline val Split = 2

@@ -74,7 +74,7 @@ object Natives:
     case l: UnsatisfiedLinkError if String.valueOf(l.getMessage).contains("another classloader") =>
       Some((
         "the native libraries that read and write images belong to another class loader",
-        "load LWJGL, and those libraries, by a class loader that both share"
+        "let both programs share a class loader that has LWJGL"
       ))
     case l: LinkageError if isOfLwjgl(l) =>
       val folder = sys.props.getOrElse(PathProperty, s"lib/natives/$platform")

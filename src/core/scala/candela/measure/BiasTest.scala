@@ -224,8 +224,8 @@ object BiasTest:
       Option.unless(isEqual):
         val floor = Math.pow(rounding * scale, 2)
         val variance = p.variance + q.variance
-        // Welch and Satterthwaite, of the noise alone: where few images happen to agree, what
-        // rounding adds tells nothing of how much they do otherwise
+        // Welch and Satterthwaite, of the noise alone: with rounding, a few images that happen to
+        // agree would have a noise that is known well
         val welch =
           if variance == 0 then Double.PositiveInfinity
           else

@@ -25,11 +25,6 @@ object ErrorMap:
       Flip.map(pair)
     case Metric.Psnr => throw ImageError(Code.DifferentImages, "PSNR has no per-pixel map")
 
-  def mean(map: Image): Double =
-    var sum = 0.0
-    loop(map.data.length)(i => sum += map.data(i))
-    sum / map.data.length
-
   private def perPixel(pair: ImagePair)(error: (Float, Float) => Double): Image =
     val count = pair.channels.size
     val data = new Array[Float](pair.width * pair.height)

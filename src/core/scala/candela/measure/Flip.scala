@@ -41,9 +41,14 @@ object Flip:
 
   /** Mean over the pixels that are finite in both images. */
   def mean(pair: ImagePair): Double =
-    val finite = (0 until pair.width * pair.height).count: i =>
-      pair.isFinite(i % pair.width, i / pair.width)
-    map(pair).data.foldLeft(0.0)(_ + _) / finite
+    val errors = map(pair).data
+    var sum = 0.0
+    var count = 0
+    loop(errors.length): i =>
+      if pair.isFinite(i % pair.width, i / pair.width) then
+        sum += errors(i)
+        count += 1
+    sum / count
 
   private def colorDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
     val labA = a.filtered(ppd).lab

@@ -80,13 +80,11 @@ private[mitsuba] final class OldNames(minor: Int):
     * the usual build.
     */
   private def isThree(e: Element): Boolean =
-    e("type").isEmpty && e("value").exists(v => !v.contains(':') && words(v).length == 3)
-
-  private def words(text: String): Array[String] = text.split("[\\s,]+").filter(_.nonEmpty)
+    e("type").isEmpty && e("value").exists(v => !v.contains(':') && Values.words(v).size == 3)
 
   /** As linear colour. */
   private def decoded(e: Element): Element =
-    val words = this.words(e("value").getOrElse(""))
+    val words = Values.words(e("value").getOrElse(""))
     val encoded =
       if words.length == 1 && words(0).startsWith("#") then
         words(0).drop(1).grouped(2).toVector

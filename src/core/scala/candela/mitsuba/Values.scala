@@ -198,7 +198,7 @@ object Values:
   def fail(code: Code, at: SourcePos, message: String, help: Option[String] = None): Nothing =
     throw SceneError(Problem.error(code, at, message, help))
 
-  private def words(text: String): Vector[String] =
+  def words(text: String): Vector[String] =
     text.split("[\\s,]+").toVector.filter(_.nonEmpty)
 
   def numbers(text: String, at: SourcePos): Vector[Double] = words(text).map(number(_, at))

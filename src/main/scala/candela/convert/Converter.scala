@@ -49,7 +49,8 @@ object Converter:
     val from = scene.dialect.base
     val translated =
       if isOfOthers then ofOthers(scene, to, files)
-      else if from == Dialect.V2 && to != from then Converted(FromV2.chains(scene), Vector.empty)
+      else if from == Dialect.V2 && to != from then
+        Converted(FromV2.withIntegrator(scene), Vector.empty)
       else Converted(scene, Vector.empty)
     val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =
@@ -84,7 +85,7 @@ object Converter:
           Converted(result, previous.warnings ++ run.warnings)
     val bounded = withoutBacks(converted)
     val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
-    // Those of others are read before
+    // Scenes of other formats name theirs when they are read
     val missing = if isOfOthers then Vector.empty else FileNames.missing(scene)
     val named = plain.warnings.flatMap(_.pos).toSet
     Converted(
@@ -159,7 +160,7 @@ object Converter:
   private def foreignDeclarations(scene: SceneDescription, to: Dialect): Vector[Pass] =
     var isMixed = false
     val _ = Declarations.map(scene): d =>
-      isMixed ||= d.dialect.exists(d => d != scene.dialect && d != to)
+      isMixed ||= d.dialect.exists(stated => stated != scene.dialect && stated != to)
       d
     Option.when(isMixed && scene.dialect == Dialect.V4)(ToV4View.pass.forForeign).toVector
 

@@ -25,7 +25,7 @@ object FromMitsuba:
     val converted = plain.copy(
       dialect = Dialect.V4,
       textures = plain.textures ++ run.addedTextures,
-      shapes = run.withoutHeightMaps(plain.shapes).map(MirroredLamps.unmirrored),
+      shapes = run.withoutHeightMaps(plain.shapes).map(EmittingShapes.unmirrored),
       objects = plain.objects.map((name, shapes) => name -> run.withoutHeightMaps(shapes))
     )
     Converted(converted, run.warnings)

@@ -1,7 +1,7 @@
 package candela.convert
 
 import candela.diagnostics.Code
-import candela.scenefile.{Dialect, Param, SceneDescription, ShapeDescription}
+import candela.scenefile.{Dialect, SceneDescription, ShapeDescription}
 
 /** Options, lights and shapes, from v2 to v3. */
 object FromV2:
@@ -90,6 +90,22 @@ object FromV2:
       Step("all", "ignored")(s => s.declaration.params.foreach(p => s.take(p.name)))
     )
 
+  /** The scene with the renderer "metropolis", which replaces the integrator, as one. */
+  def withIntegrator(scene: SceneDescription): SceneDescription =
+    scene.renderer.filter(_.name == "metropolis").fold(scene): d =>
+      scene.copy(renderer = None, integrator = Some(d.copy(category = "Integrator")))
+
+  // Where v3's defaults are others
+  private val metropolis = Seq(
+    Step("`maxdepth`", "unchanged")(s => s.addInteger("maxdepth", s.takeInteger("maxdepth", 7))),
+    Step("`largestepprobability`", "unchanged")(s =>
+      s.addFloat("largestepprobability", s.takeNumber("largestepprobability", 0.25f))
+    ),
+    rename("samplesperpixel" -> "mutationsperpixel"),
+    retain("bootstrapsamples"),
+    drop("directsamples", "dodirectseparately", "bidirectional", "maxconsecutiverejects")
+  )
+
   private val integrators = Table("Integrator", fallback = "path")(
     Rule("path" -> "path")(oneMore),
     Rule("directlighting" -> "directlighting")(retain("maxdepth", "strategy")),
@@ -101,32 +117,11 @@ object FromV2:
       retain("nsamples"),
       unsupported("maxdist", "unlimited distance")
     ),
+    Rule("metropolis" -> "mlt")(metropolis*),
     unbiased(
       "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
     )
   )
-
-  /** Metropolis light transport is a renderer in v2, in place of the integrator, and one of v3's
-    * integrators.
-    */
-  def chains(scene: SceneDescription): SceneDescription =
-    scene.renderer.filter(_.name == "metropolis").fold(scene): d =>
-      def number(name: String, from: String, default: Int) =
-        Param.int(name, d.pos, d.param(from).flatMap(_.ints.headOption).getOrElse(default))
-      val large = d.param("largestepprobability").flatMap(_.floats.headOption).getOrElse(0.25f)
-      val params = Vector(
-        number("maxdepth", "maxdepth", 7),
-        number("mutationsperpixel", "samplesperpixel", 100),
-        number("bootstrapsamples", "bootstrapsamples", 100000),
-        Param.float("largestepprobability", d.pos, large)
-      )
-      val mlt = d.copy(
-        category = "Integrator",
-        name = "mlt",
-        params = params,
-        dialect = Some(Dialect.V3)
-      )
-      scene.copy(renderer = None, integrator = Some(mlt))
 
   private val lightSamples = Step("`nsamples`", "`samples`"): s =>
     for p <- s.take("nsamples") do s.add("samples", p)

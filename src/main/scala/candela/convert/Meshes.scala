@@ -3,25 +3,11 @@ package candela.convert
 import candela.io.InputFile
 import java.io.IOException
 
-import candela.scenefile.{Declaration, Param, ParamType, ShapeDescription}
+import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Properties of meshes. */
 object Meshes:
   val OtherSide = "v3 lights the other side of a reversed mesh with normals"
-
-  /** What v3 and v4 show otherwise of a light of this shape, though both have it. */
-  def lampLoss(s: ShapeDescription): Option[String] =
-    val isMirrored = !s.objectToWorld.isAnimated && s.objectToWorld.start.swapsHandedness
-    def isTwoSided = s.areaLight.flatMap(_.param("twosided")).exists(_.bools.contains(true))
-    if s.areaLight.isEmpty || isTwoSided then None
-    else if isMirrored && Quadrics(s.shape.name) then
-      Some("a mirrored quadric that emits is seen on one side, and lights the other; how much of " +
-        "each shows differs")
-    else if s.shape.name == "loopsubdiv" then
-      Some("light of the back of a coarse \"loopsubdiv\" shows at its silhouettes in v4 only")
-    else None
-
-  private val Quadrics = Set("sphere", "disk", "cylinder")
 
   /** Whether every vertex has a shading normal. */
   def hasNormals(shape: Declaration): Boolean = shape.name match

@@ -20,7 +20,7 @@ object ToV3Lights:
     def angle(name: String, default: Float) = s.peek(name).flatMap(s.numberOf).getOrElse(default)
     val (total, delta) = (angle("coneangle", 30f), angle("conedeltaangle", 5f))
     val (end, start) = (cos(radians(total)), cos(radians(total - delta)))
-    Some(power / (2f * Pi * ((1f - start) + (start - end) / 2f)))
+    Some(power / (2f * Pi * ((1f - start) + (start - end) * SpotEdge.MeanInV4)))
 
   private val infinite: Step =
     val plain = Emission.toV3("L", "illuminance", (e, _) => Some(e / Pi))

@@ -69,7 +69,7 @@ object ToV3Shapes:
           meshed
         else meshed.copy(shape = reversed(meshed.shape), reverseOrientation = false)
       else meshed
-    for loss <- Meshes.lampLoss(s) do run.warn(Code.Inexpressible, s.shape.pos, loss)
+    for loss <- EmittingShapes.loss(s) do run.warn(Code.Inexpressible, s.shape.pos, loss)
     Vector(ToV3Lights.powered(turned))
 
   /** The mesh with its normals flipped; for a subdivision surface, its vertex order reversed. */

@@ -97,7 +97,7 @@ object ToV4Lights:
   * distance to the end of the cone, v4's in a smoothstep of it.
   */
 private object SpotEdge:
-  /** Of the light within the edge, relative to that before it: integrals over the cosine. */
+  /** The mean over the cosine, within the edge, of the intensity relative to that before it. */
   val MeanInV3 = 1f / 5f
   val MeanInV4 = 1f / 2f
 

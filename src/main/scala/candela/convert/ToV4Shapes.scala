@@ -71,8 +71,7 @@ object ToV4Shapes:
     * `ReverseOrientation` are seen on one side and light the other.
     */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
-    // pbrt places shapes that move by instances, which mirror no shape
-    val isMirrored = !s.objectToWorld.isAnimated && s.objectToWorld.start.swapsHandedness
+    val isMirrored = EmittingShapes.isMirrored(s)
     Tessellation.of(s.shape, isMirrored) match
       case Some(mesh) =>
         val method =
@@ -96,5 +95,5 @@ object ToV4Shapes:
       case None =>
         if s.reverseOrientation && s.areaLight.nonEmpty && Meshes.hasNormals(s.shape) then
           run.warn(Code.Inexpressible, s.shape.pos, Meshes.OtherSide)
-        for loss <- Meshes.lampLoss(s) do run.warn(Code.Inexpressible, s.shape.pos, loss)
+        for loss <- EmittingShapes.loss(s) do run.warn(Code.Inexpressible, s.shape.pos, loss)
         Vector(s)

@@ -222,14 +222,17 @@ class MeaningSuite extends AnyFunSuite:
     assert(warnings(net).exists(_.contains("at its silhouettes")))
 
   test("v2's Metropolis renderer is v3's integrator"):
-    val renderer = "Renderer \"metropolis\" \"integer maxdepth\" 3\nWorldBegin\nWorldEnd"
+    val renderer =
+      "Renderer \"metropolis\" \"integer maxdepth\" 3 \"integer sample\" 2\nWorldBegin\nWorldEnd"
     TempFolder.use: folder =>
       val scene = SceneTexts.parse(renderer, Dialect.V2, folder)
       for to <- Vector(Dialect.V3, Dialect.V4) do
         val made = Converter.convert(scene, to, folder)
         val d = made.scene.integrator.get
         assert(d.name == "mlt" && d.param("maxdepth").get.ints.head == 3)
-        assert(!made.warnings.exists(_.message.contains("metropolis")))
+        assert(d.param("largestepprobability").get.floats.head == 0.25f)
+        val unknown = "unknown parameter `sample` of \"metropolis\"; ignored"
+        assert(made.warnings.map(_.message) == Vector(unknown))
 
   test("a reversed lamp with normals is a warning: v3 lights its other side"):
     val lamp =

@@ -19,7 +19,7 @@ class FlipSuite extends AnyFunSuite:
       for c <- 0 until 3 do image.data(3 * (y * 48 + x) + c) = values(c).toFloat
     image
 
-  private def mean(a: Image, b: Image): Double = ErrorMap.mean(Flip.map(ImagePair(a, b)))
+  private def mean(a: Image, b: Image): Double = Flip.mean(ImagePair(a, b))
 
   test("equal pictures have no error, and black against white has nearly all"):
     val image = scene(0, 0.1)

@@ -1,7 +1,7 @@
 package candela.report
 
 import candela.bench.report.SuitePage
-import candela.measure.{ErrorMap, ImagePair, Metric, Metrics}
+import candela.measure.{Flip, ImagePair, Metrics}
 import candela.testing.Chromium
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -29,7 +29,7 @@ class BrowserSuite extends AnyFunSuite:
     // Numbers have 16 bits in the page.
     assert(Math.abs(viewer(relative, "mean").toDouble / wanted - 1) < 1e-3)
     val flip = opened(RenderPage.html(Reports.report), "mode=heat&metric=flip")
-    val mean = ErrorMap.mean(ErrorMap(Metric.Flip, pair))
+    val mean = Flip.mean(pair)
     assert(Math.abs(viewer(flip, "mean").toDouble - mean) < 0.5 / 255)
 
   test("a pixel can be read, a chart chosen and the dark page asked for by the address"):
