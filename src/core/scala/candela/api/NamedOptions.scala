@@ -10,7 +10,11 @@ private[api] object NamedOptions:
   /** Settings without effect here, and what to do instead. */
   private val ofProgram =
     val curve = "a RenderListener's `passed` has the image at 1, 2, 4, 8, … samples per pixel"
-    Map("mse-reference-image" -> curve, "mse-reference-out" -> curve)
+    Map(
+      "mse-reference-image" -> curve,
+      "mse-reference-out" -> curve,
+      "turntable" -> "`scene.edit()` turns the camera: one scene for each image"
+    )
 
   private def idle(name: String): String =
     s"setting `$name` is of the program, and does nothing in the library"

@@ -78,8 +78,8 @@ object ImagePair:
       throw ImageError(
         Code.DifferentImages,
         s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render " +
-          s"with --resolution ${reference.width}x${reference.height}, or cut the larger one " +
-          "with `candela image --crop x0,x1,y0,y1`"
+          s"with --resolution ${reference.width}x${reference.height}, or resize or cut one " +
+          "with `candela image`"
       )
     val chosen = picked(image, channels, "image")
     if channels.forall(reference.channelNames.contains) then

@@ -333,7 +333,7 @@ class LibrarySuite extends AnyFunSuite:
     assert(refused(RenderSettings().withOption("keep-going")).help.get.contains("ReadSettings"))
     val other = refused(ReadSettings().withOption("seed", "0"))
     assert(other.help.get == "it belongs to RenderSettings")
-    for (name, value) <- Vector("sensor" -> "all", "turntable" -> "8", "at" -> "0:1:2") do
+    for (name, value) <- Vector("sensor" -> "all", "at" -> "0:1:2") do
       assert(refused(ReadSettings().withOption(name, value)).message.contains("several images"))
 
   test("excerpts of a text are of the text, not of a file of its name"):

@@ -79,6 +79,12 @@ class ProblemsSuite extends AnyFunSuite:
     for name <- Vector("mse-reference-image", "mse-reference-out") do
       val problem = refused(RenderSettings().withOption(name, "a.exr"))
       assert(problem.number == "E0008" && problem.help.get.contains("RenderListener"), problem)
+    for turned <- Vector(
+        () => RenderSettings().withOption("turntable", "8"),
+        () =>
+          ReadSettings().withOption("turntable", "8")
+      )
+    do assert(refused(turned()).help.get.contains("scene.edit()"))
     val curve = "Option \"string msereferenceimage\" \"a.exr\"\n" +
       "Option \"string msereferenceout\" \"a.txt\"\nCamera \"perspective\"\nWorldBegin\n" +
       "LightSource \"infinite\"\nShape \"sphere\"\n"

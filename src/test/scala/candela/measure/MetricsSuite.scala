@@ -55,7 +55,7 @@ class MetricsSuite extends AnyFunSuite:
     def error(a: Image, b: Image) = intercept[ImageError](Metrics.compare(a, b)).getMessage
     val wide = Image.rgb(3, 2)
     assert(error(wide, Image.rgb(2, 3)) == "image sizes differ: 3×2 and 2×3 pixels; " +
-      "render with --resolution 2x3, or cut the larger one with `candela image --crop x0,x1,y0,y1`")
+      "render with --resolution 2x3, or resize or cut one with `candela image`")
     val gray = Image(3, 2, Vector("Y"), new Array[Float](6))
     assert(error(wide, gray) == "image channels differ: R, G, B and Y")
 
