@@ -48,6 +48,10 @@ XML = """<scene version="3.0.0">
 """
 
 
+# Where a volume fills Mitsuba's cube
+UNIT_CUBE = candela.Transform().translate([-1, -1, -1]).scale(2)
+
+
 def mitsuba():
     """The scene of XML, as Mitsuba's load_dict takes it."""
     return {
@@ -329,6 +333,46 @@ class InMemory(unittest.TestCase):
         values["red.reflectance"] = {"type": "bitmap", "data": floats}
         with self.assertRaisesRegex(candela.SceneError, "found an array of 4 × 2 × 3 int64"):
             values["red.reflectance.data"] = bits.astype("i8")
+
+    def test_volumes_are_made_of_arrays(self):
+        fog = {"type": "homogeneous", "sigma_t": 2.0, "albedo": 0.5}
+        scene = mitsuba()
+        scene["integrator"] = {"type": "volpath"}
+        scene["ball"] = {"type": "cube", "bsdf": {"type": "null"}, "interior": fog}
+        even = candela.render(scene, spp=64).rgb.mean()
+        for array in (np.full((2, 3, 4), 2.0), np.full((2, 3, 4, 1), 2.0, "f4")):
+            for name in ("data", "grid"):
+                grid = {"type": "gridvolume", name: array, "to_world": UNIT_CUBE}
+                scene["ball"]["interior"] = {**fog, "type": "heterogeneous", "sigma_t": grid}
+                self.assertAlmostEqual(candela.render(scene, spp=64).rgb.mean() / even, 1, 1)
+        loaded = candela.load_dict(scene)
+        values = loaded.parameters()
+        key = "ball.interior.sigma_t.data"
+        np.testing.assert_array_equal(values[key], array)
+        values[key] = np.zeros((2, 2, 2))
+        self.assertGreater(abs(loaded.render(spp=64).rgb.mean() / even - 1), 0.1)
+        for wrong, found in ((np.ones((2, 2)), "2 × 2"), (np.full((1, 1, 1), np.nan), "nan")):
+            with self.assertRaisesRegex(candela.SceneError, f"{key}.*found.* {found}"):
+                values[key] = wrong
+
+    def test_an_object_with_an_id_is_found_by_its_key_too(self):
+        scene = mitsuba()
+        plain = candela.render(scene, spp=4).rgb
+        scene["red"]["id"] = "paint"
+        for name in ("red", "paint"):
+            scene["ball"]["bsdf"] = {"type": "ref", "id": name}
+            np.testing.assert_array_equal(candela.render(scene, spp=4).rgb, plain)
+
+    def test_a_file_name_may_have_a_dollar(self):
+        scene = mitsuba()
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "a$b.ply")
+            shutil.copyfile(candela.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])["filename"], name)
+            scene["ball"] = {"type": "ply", "filename": name}
+            with self.assertRaisesRegex(candela.SceneError, r"\$file.*define=\{'file': …\}"):
+                candela.render(scene, spp=1)
+            scene["ball"]["filename"] = "$file"
+            candela.render(scene, spp=1, define={"file": name})
 
     def test_arrays_are_saved_with_the_scene_and_their_files_removed_after_it(self):
         mesh = candela.mesh([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 1, 2]])

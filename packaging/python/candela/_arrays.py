@@ -135,6 +135,23 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
     return ArrayFile(".exr", exr(image), array)
 
 
+def grid(values: Any) -> ArrayFile:
+    """A volume: a file of Mitsuba's, of the unit cube."""
+    array = np.array(values)
+    cells = array[..., None] if array.ndim == 3 else array
+    if cells.ndim != 4 or cells.shape[3] not in (1, 3) or not cells.size or cells.dtype.kind != "f":
+        expected = "depth × height × width, or that × 1 or × 3, floats"
+        raise ValueError(f"expected an array of {expected}, found {described(values)}")
+    odd = np.argwhere(~(np.abs(cells) <= np.finfo("f4").max))
+    for place in odd[:1].tolist():
+        found = cells[tuple(place)]
+        raise ValueError(f"value {place} must be a finite float32, found {found}")
+    array.flags.writeable = False
+    depth, height, width, channels = cells.shape
+    header = struct.pack("<3sBiiiii6f", b"VOL", 3, 1, width, height, depth, channels, *[0] * 3, *[1] * 3)
+    return ArrayFile(".vol", header + cells.astype("<f4").tobytes(), array)
+
+
 def linear(encoded: Any) -> Any:
     """Source: IEC 61966-2-1, sRGB."""
     toe, curve = encoded / 12.92, ((np.maximum(encoded, 0) + 0.055) / 1.055) ** 2.4

@@ -27,7 +27,8 @@ class FileElement(ET.Element):
         return FileElement, (self.file,)
 
     @property
-    def is_texture(self) -> bool:
+    def is_array(self) -> bool:
+        """Whether its values are data of a texture or a volume, not a mesh."""
         return self.file.array is not None
 
 
@@ -77,7 +78,7 @@ def _names(parent: ET.Element) -> List[Tuple[ET.Element, str]]:
         if not is_object(child) and child.tag not in _VALUES:
             continue  # a comment, a part of a transform, a `default`
         given = next((child.attrib[x] for x in attributes if child.get(x)), "")
-        if isinstance(child, FileElement) and child.is_texture:
+        if isinstance(child, FileElement) and child.is_array:
             given = "data"
         if given:
             names[child.tag == "ref"].append((child, given))

@@ -113,8 +113,8 @@ _COLOR = "must be a colour or a texture, found a vector"
 _ELEMENT = re.compile(r'<(\w+) type="(\w+)">')
 _LINE = re.compile(r"scene\.xml:(\d+):\d+")
 # Temporary files of arrays: at the start of a message, or named in it
-_ARRAY = re.compile(r"^[^`]*?\bcandela-\w{8}\.(?:exr|png|ply): ")
-_ARRAYS = re.compile(r"`[^`]*\bcandela-\w{8}\.(?:exr|png|ply)`")
+_ARRAY = re.compile(r"^[^`]*?\bcandela-\w{8}\.(?:exr|png|ply|vol): ")
+_ARRAYS = re.compile(r"`[^`]*\bcandela-\w{8}\.(?:exr|png|ply|vol)`")
 
 
 def is_note(line: str) -> bool:
@@ -128,7 +128,11 @@ def in_python(line: str) -> str:
         return line
     for words, others in _WORDS.items():
         line = line.replace(words, others)
-    line = _DEFAULT.sub(r"define={'\1': …} gives its value", line)
+    line = _DEFAULT.sub(
+        r"define={'\1': …} gives its value; of a name that has a `$`, write '$file' and "
+        "define={'file': …}",
+        line,
+    )
     line = _DEFINE.sub(r"define={'\1': …}", line)
     line = _LONG.sub(r"found `\1…`", line)
     line = _HELP.sub(r"`help(candela.\1)` and COMMANDS.md say", line)

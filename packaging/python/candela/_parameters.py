@@ -95,8 +95,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     def _set(self, key: str, value: Any) -> None:
         parent, old = self._path(key)
         faults: List[Problem] = []
-        if isinstance(old, FileElement) and old.is_texture:
-            new = array_of(value, key, faults, is_raw(parent))
+        if isinstance(old, FileElement) and old.is_array:
+            new = array_of(parent.get("type", ""), value, key, faults, is_raw(parent))
         else:
             new = element_of(old.get("name", ""), _like(old, value, key), key, faults)
         is_count = old.tag in _NUMBERS and parent.tag not in _COLORED
@@ -203,7 +203,7 @@ class _Numbers(List[float]):
 
 def _value(element: ET.Element) -> Any:
     if isinstance(element, FileElement):
-        return element.file.array if element.is_texture else element.file
+        return element.file.array if element.is_array else element.file
     text = element.get("value", "")
     try:
         if element.tag == "transform":

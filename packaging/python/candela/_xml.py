@@ -9,7 +9,7 @@ import re
 import xml.etree.ElementTree as ET
 from typing import Any, Dict, Iterator, List, Optional, Tuple
 
-from ._arrays import ArrayFile, texture
+from ._arrays import ArrayFile, grid, texture
 from ._elements import OBJECTS, FileElement, keys_of
 from ._errors import OF_DEFINE, Keys, Problem, SceneError
 from ._plugins import ELEMENTS
@@ -23,6 +23,7 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
     if not isinstance(scene, dict) or scene.get("type") != "scene":
         raise error_of_faults([fault("", "expected a dict with 'type': 'scene'")])
     root = ET.Element("scene", version="3.0.0")
+    ids: Dict[str, str] = {}  # by key
     for name, value in scene.items():
         if name == "type" or _is_dotted(name, name, faults):
             continue
@@ -32,8 +33,12 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
         if element.tag not in OBJECTS and element.tag != "ref":
             faults.append(fault(name, f"a scene takes no {element.tag} `{name}`: expected a dict"))
         del element.attrib["name"]
-        element.attrib.setdefault("id", name)
+        ids[name] = element.attrib.setdefault("id", name)
         root.append(element)
+    own = set(ids.values())
+    for ref in root.iter("ref"):
+        if ref.get("id") not in own:
+            ref.set("id", ids.get(ref.get("id", ""), ref.get("id", "")))
     return root, faults
 
 
@@ -138,8 +143,8 @@ def _object(
             message = f"unknown parameter `{inner}`: {advice}"
             faults.append(fault(f"{key}.{inner}", message, "E0308"))
             continue
-        if kind in ("bitmap", "envmap") and inner in ("data", "bitmap"):
-            child = array_of(each, f"{key}.{inner}", faults, value.get("raw") is True)
+        if inner in ARRAYS.get(kind, ()):
+            child = array_of(kind, each, f"{key}.{inner}", faults, value.get("raw") is True)
         else:
             child = _element(inner, each, f"{key}.{inner}", faults)
         if child is not None:
@@ -180,12 +185,20 @@ def is_raw(texture: ET.Element) -> bool:
     return any(x.get("name") == "raw" and x.get("value") == "true" for x in texture)
 
 
+# Parameters that are arrays, as Mitsuba's dicts have them
+ARRAYS = {
+    "bitmap": ("data", "bitmap"),
+    "envmap": ("data", "bitmap"),
+    "gridvolume": ("data", "grid"),
+}
+
+
 def array_of(
-    value: Any, key: str, faults: List[Problem], is_raw: bool = False
+    kind: str, value: Any, key: str, faults: List[Problem], is_raw: bool = False
 ) -> Optional[ET.Element]:
-    """The element of the array of a texture or an environment."""
+    """The element of the array of a texture, an environment or a volume."""
     try:
-        return FileElement(texture(value, is_raw))
+        return FileElement(grid(value) if kind == "gridvolume" else texture(value, is_raw))
     except ValueError as e:
         faults.append(fault(key, str(e)))
         return None

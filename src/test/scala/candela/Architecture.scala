@@ -68,7 +68,7 @@ object Architecture:
   private val report = measure + "measure"
   private val convert =
     measure ++
-      Set("build.media", "scenefile", "shapes") ++
+      Set("build", "build.media", "cameras", "scenefile", "shapes") ++
       "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling".split(' ')
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val models =
@@ -205,6 +205,17 @@ object Architecture:
     val writers = Set("io/WholeFile.scala", "io/Scratch.scala", "render/storage/FilmLock.scala")
     code(sources.filterNot(s => writers(s.path))): (_, line) =>
       write.findFirstIn(line).map(what => s"only WholeFile may write files, but here is `$what`")
+
+  private val localised =
+    "(?<![-\\w}\"$])f\"|\"\\.format\\(|\\.to(?:Lower|Upper)Case\\b(?!\\(Locale)".r
+
+  /** Digits and letters in texts are the same in all countries. */
+  def locales(sources: Vector[SourceText]): Vector[String] =
+    for
+      source <- sources
+      (line, i) <- source.lines.zipWithIndex
+      what <- localised.findFirstIn(line)
+    yield s"${source.path}:${i + 1}: `$what` depends on the locale"
 
   private val read = (raw"\bFiles\.\w+|\bFileChannel\.open\b|" +
     raw"\b(?:FileInputStream|FileReader|FileImageInputStream|RandomAccessFile)\b|" +

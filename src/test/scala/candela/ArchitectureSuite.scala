@@ -45,6 +45,12 @@ class ArchitectureSuite extends AnyFunSuite:
   test("only WholeFile writes files"):
     holds(Architecture.writes(main))
 
+  test("texts are the same in all countries"):
+    holds(Architecture.locales(main.filterNot(_.path.startsWith("bench/")) ++ cluster))
+    for line <- Vector("f\"$n%03d\"", "\"%.3f\".format(x)", "name.toLowerCase", "a.toUpperCase()")
+    do
+      assert(Architecture.locales(planted("io/Npz.scala", line)).size == 1, line)
+
   test("only SceneFolder opens the files that a scene names"):
     holds(Architecture.reads(main))
 

@@ -6,6 +6,7 @@ import candela.image.Image
 
 import java.lang.Float.{floatToRawIntBits, intBitsToFloat}
 import java.nio.charset.StandardCharsets.UTF_8
+import java.util.Locale
 import scala.util.hashing.MurmurHash3
 
 /** Identifiers with their coverage of each pixel, ranked by coverage, and a legend in the metadata.
@@ -42,8 +43,10 @@ object Cryptomatte:
     val entries =
       legend.distinct.map(n => n -> floatToRawIntBits(id(n))).filter(e => usedBits(e._2))
     val manifest =
-      entries.map((n, bits) => "\"" + escaped(n) + "\":\"" + "%08x".format(bits) + "\"")
-    val key = "cryptomatte/" + "%08x".format(floatToRawIntBits(id(name))).take(7)
+      entries.map((n, bits) =>
+        "\"" + escaped(n) + "\":\"" + "%08x".formatLocal(Locale.ROOT, bits) + "\""
+      )
+    val key = "cryptomatte/" + "%08x".formatLocal(Locale.ROOT, floatToRawIntBits(id(name))).take(7)
     Vector(
       s"$key/name" -> name,
       s"$key/hash" -> "MurmurHash3_32",
@@ -54,7 +57,7 @@ object Cryptomatte:
   private def escaped(text: String): String = text.flatMap:
     case '"' => "\\\""
     case '\\' => "\\\\"
-    case c if c < ' ' => "\\u%04x".format(c.toInt)
+    case c if c < ' ' => "\\u%04x".formatLocal(Locale.ROOT, c.toInt)
     case c => c.toString
 
   /** Pairs of identifier and filter weight, in the order of their first samples. */

@@ -1,7 +1,7 @@
 package candela.api
 
 import candela.diagnostics.SourcePos
-import java.util.Optional
+import java.util.{Locale, Optional}
 
 import scala.jdk.OptionConverters.*
 
@@ -38,7 +38,7 @@ final class Problem private[api] (core: candela.diagnostics.Problem):
   override def toString: String =
     val prefix = pos.fold("")(p => s"$p: ")
     val cure = core.help.fold("")(h => s"; $h")
-    s"$prefix${severity.toString.toLowerCase}: $message$cure [$number]"
+    s"$prefix${severity.toString.toLowerCase(Locale.ROOT)}: $message$cure [$number]"
 
 /** A scene that can't be rendered, or an invalid setting. Its message is that of the first error,
   * with its number, and says how many others there are. [[Candela.read]] and [[Scene.check]] return

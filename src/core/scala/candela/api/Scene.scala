@@ -6,7 +6,7 @@ import candela.job.{Prepared, Render}
 import candela.scenefile.{MaterialRef, SceneDescription}
 
 import java.nio.file.Path
-import java.util.{List as JList, Objects}
+import java.util.{List as JList, Locale, Objects}
 
 import scala.jdk.CollectionConverters.*
 
@@ -52,7 +52,7 @@ final class Scene private[api] (
     java.util.List.copyOf(texts.asJava)
 
   /** `v2`, `v3` or `v4` of pbrt, or `mitsuba`; empty if it could not be read. */
-  def dialect: String = description.fold("")(_.dialect.toString.toLowerCase)
+  def dialect: String = description.fold("")(_.dialect.toString.toLowerCase(Locale.ROOT))
 
   /** The scene file and its includes; empty if it is not from a file. */
   def files: JList[Path] = java.util.List.copyOf(description.fold(Vector.empty)(_.sources).asJava)

@@ -9,7 +9,7 @@ import candela.scenefile.{
   AnimatedTransform, Dialect, GivenStatement, GraphicsState, InstanceList, Param, StatementRunner
 }
 
-import java.util.Objects
+import java.util.{Locale, Objects}
 import java.util.function.UnaryOperator
 
 /** Builds a scene from statements of pbrt-v4, or edits another scene. Names, parameters and values
@@ -178,7 +178,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       parameters: Parameters
   ): SceneBuilder =
     val pos = position
-    val texts = Vector(name, values.toString.toLowerCase, kind)
+    val texts = Vector(name, values.toString.toLowerCase(Locale.ROOT), kind)
     run(GivenStatement("Texture", pos, texts = texts, params = located(parameters, pos)))
 
   /** Names a medium, for [[mediumInterface]]. */

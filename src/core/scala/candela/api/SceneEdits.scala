@@ -8,7 +8,7 @@ import candela.scenefile.{
 import java.nio.ByteBuffer
 import java.nio.charset.StandardCharsets.UTF_8
 import java.security.MessageDigest
-import java.util.HexFormat
+import java.util.{HexFormat, Locale}
 
 /** Changes of what a scene has. */
 private[api] object SceneEdits:
@@ -17,7 +17,7 @@ private[api] object SceneEdits:
   /** @throws SceneError if there is none */
   def setting(setting: SceneSetting, params: Vector[Param]): Edit = scene =>
     val previous = current(setting, scene).getOrElse:
-      val word = setting.toString.toLowerCase
+      val word = setting.toString.toLowerCase(Locale.ROOT)
       val help = s"call $word(…) to give it one"
       fail(Code.Undefined, params, s"the scene has no $word to change", Some(help))
     val changed = Some(withParams(previous, params))
@@ -46,7 +46,7 @@ private[api] object SceneEdits:
     val names = current(setting, scene).toVector.flatMap(_.params.map(_.name))
       .filterNot(params.map(_.name).contains)
     Option.when(names.nonEmpty):
-      val word = setting.toString.toLowerCase
+      val word = setting.toString.toLowerCase(Locale.ROOT)
       val verb = if names.size == 1 then "has its default" else "have their defaults"
       val message =
         s"the new $word replaces the scene's: ${names.map(n => s"`$n`").mkString(", ")} $verb"

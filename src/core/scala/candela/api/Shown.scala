@@ -2,6 +2,8 @@ package candela.api
 
 import candela.scenefile.SceneDescription
 
+import java.util.Locale
+
 /** Objects of the library as text. */
 private[api] object Shown:
 
@@ -14,7 +16,7 @@ private[api] object Shown:
   def perPixel(samples: Int): String = s"${count(samples, "sample")} per pixel"
 
   /** A number, rounded. */
-  def rounded(x: Double): String = String.format(java.util.Locale.ROOT, "%.3g", x)
+  def rounded(x: Double): String = String.format(Locale.ROOT, "%.3g", x)
 
   /** What a scene has. */
   def contents(name: String, scene: SceneDescription): Vector[String] =

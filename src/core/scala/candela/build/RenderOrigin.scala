@@ -3,6 +3,8 @@ package candela.build
 import candela.math.Position
 import candela.scenefile.{AnimatedTransform, GraphicsState, SceneDescription}
 
+import java.util.Locale
+
 /** The point of the scene's world that is the origin of what is built.
   *
   * Everything rendered has Float coordinates. Around a camera at 4,000,000 they are 0.25 apart; so
@@ -88,7 +90,7 @@ private[build] object RenderOrigin:
       val nearby = extents.lazyZip(sizes).filter((_, s) => eye.reach >= Times * s).map((e, _) => e)
       val point = if nearby.isEmpty then eye else median(nearby.toVector.map(_.middle))
       val step = Math.ulp(eye.reach.toFloat).toDouble
-      val rounding = if step >= 0.1 then f"$step%.2g" else f"$step%.1g"
+      val rounding = (if step >= 0.1 then "%.2g" else "%.1g").formatLocal(Locale.ROOT, step)
       RenderOrigin(
         snapped(point, eye.reach),
         s"at the camera, ${plain(eye.reach)} from the world's origin, Floats are $rounding " +
@@ -112,4 +114,5 @@ private[build] object RenderOrigin:
     d.worldToCamera.start.inverse.position(Position(0, 0, target.z))
 
   private def plain(x: Double): String =
-    if x == Math.rint(x) && Math.abs(x) < 1e15 then x.toLong.toString else f"$x%.3g"
+    if x == Math.rint(x) && Math.abs(x) < 1e15 then x.toLong.toString
+    else "%.3g".formatLocal(Locale.ROOT, x)

@@ -17,6 +17,8 @@ import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.settings.{BuildControl, Choices, RenderSettings, SkyView}
 
+import java.util.Locale
+
 /** What depends on camera, film and sampler, but not on the world.
   *
   * @param integratorIn the integrator, in the colour basis of a context
@@ -141,7 +143,7 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
   private def dialect: String =
     val scene = context.description
     val reason = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
-    scene.dialect.toString.toLowerCase + reason + scene.additions.fold("")(", " + _)
+    scene.dialect.toString.toLowerCase(Locale.ROOT) + reason + scene.additions.fold("")(", " + _)
 
   /** Of pbrt-v2's adaptive sampler. Not of paths that learn or wait for a pilot's choice: those
     * belong to passes over the whole image.

@@ -1,5 +1,7 @@
 package candela.cameras
 
+import java.util.Locale
+
 /** Thick-lens approximation of a lens system: refraction at two principal planes only.
   *
   * All positions are z of camera space, for the current film distance.
@@ -63,7 +65,8 @@ object LensFocus:
         thick.shift(distance) match
           case None =>
             val nearest = 4 * thick.focalLength + thick.scenePlane - thick.filmPlane
-            Left(f"focus distance must be at least $nearest%.3f m, found $distance%.3f")
+            Left("focus distance must be at least %.3f m, found %.3f"
+              .formatLocal(Locale.ROOT, nearest, distance))
           case Some(shift) =>
             val filmDistance = lens.surfaces.last.thickness + shift
             if filmDistance > 0 then Right(lens.at(filmDistance))

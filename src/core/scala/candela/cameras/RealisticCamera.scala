@@ -28,6 +28,9 @@ final class RealisticCamera(
   private val stepX = filmWidth / frame.width
   private val stepY = filmWidth * aspect / frame.height
 
+  /** Relative to the film's exposure of a second. */
+  def relativeGain: Double = gain / RealisticCamera.exposureGain(lens, 1)
+
   override def weighs: Boolean = true
   override protected[cameras] def step: Float = 0.05f
 

@@ -4,6 +4,8 @@ import candela.film.View
 import candela.integrators.CausticWeights
 import candela.scene.{Casters, Scene}
 
+import java.util.Locale
+
 /** How caustics are found beside the camera's paths. */
 sealed trait CausticChoice
 
@@ -13,7 +15,8 @@ sealed trait CausticChoice
   * @param perSample light paths per camera sample, on average
   */
 final case class LightPathChoice(casters: Casters, perSample: Float) extends CausticChoice:
-  override def toString: String = f"$perSample%.3g light paths per camera sample"
+  override def toString: String =
+    "%.3g light paths per camera sample".formatLocal(Locale.ROOT, perSample)
 
   private[candela] def weights(scene: Scene, view: View): CausticWeights =
     CausticWeights(scene, casters, view.camera, perSample)
@@ -32,5 +35,6 @@ final case class PhotonChoice(
     brings: String
 ) extends CausticChoice:
   override def toString: String =
-    f"photon maps, which bring $brings, with a radius of $radius%.3g in the first pass, " +
+    val first = "%.3g".formatLocal(Locale.ROOT, radius)
+    s"photon maps, which bring $brings, with a radius of $first in the first pass, " +
       "and less in each that follows; the image is biased"

@@ -1,5 +1,7 @@
 package candela.caustics
 
+import java.util.Locale
+
 /** What a pilot has found out.
   *
   * @param choice       what it would do, if it can do anything
@@ -44,6 +46,6 @@ private[candela] object PilotResult:
       mustPay: Boolean = true
   ): PilotResult =
     val gain = if expectedWork > 0.0 then baseline / expectedWork else 1.0
-    val times = if gain > 10.0 then "more than 10" else f"$gain%.2f"
+    val times = if gain > 10.0 then "more than 10" else "%.2f".formatLocal(Locale.ROOT, gain)
     val reason = s"the pilot expects $times times the efficiency, with $choice"
     PilotResult(Some(choice), expectedWork, !mustPay || gain > MinGain, reason)

@@ -1,5 +1,7 @@
 package candela.diagnostics
 
+import java.util.Locale
+
 /** Kinds of problems. Problems with one meaning and cure share a number, which is never reused.
   *
   * [[ProblemGuide]] explains them; `candela explain E0201` prints that, docs/PROBLEMS.md has all.
@@ -123,7 +125,7 @@ enum Code(val number: Int):
   case NoProgram extends Code(1202)
 
   /** The number as printed: `E0201`. */
-  def word: String = f"E$number%04d"
+  def word: String = "E%04d".formatLocal(Locale.ROOT, number)
 
 object Code:
   /** The code of a word such as `E0201`, `e201` or `201`. */

@@ -2,6 +2,7 @@ package candela.diagnostics
 
 import candela.base.loop
 import java.nio.file.Path
+import java.util.Locale
 
 /** Finds the nearest known name, for "did you mean". */
 object Suggest:
@@ -11,14 +12,14 @@ object Suggest:
     * at.
     */
   def nearest(name: String, known: Iterable[String]): Option[String] =
-    val lower = name.toLowerCase
+    val lower = name.toLowerCase(Locale.ROOT)
     var closest = Option.empty[String]
     var bestDistance = Int.MaxValue
     for k <- known.iterator.take(MaxKnownNames) do
       val limit = math.min(bestDistance, math.max(1, math.max(name.length, k.length) / 3))
       // The distance is at least the difference in length, so most names need no table.
       if math.abs(k.length - name.length) <= limit then
-        val d = distance(lower, k.toLowerCase, limit)
+        val d = distance(lower, k.toLowerCase(Locale.ROOT), limit)
         if d <= limit && (d < bestDistance || closest.exists(_ > k)) then
           closest = Some(k)
           bestDistance = d
@@ -56,7 +57,7 @@ object Suggest:
 
   /** Whether two names differ in the values of their numbers alone. */
   private def differsInNumber(a: String, b: String): Boolean =
-    def words(name: String) = Digits.replaceAllIn(name.toLowerCase, "0")
+    def words(name: String) = Digits.replaceAllIn(name.toLowerCase(Locale.ROOT), "0")
     def numbers(name: String) = Digits.findAllIn(name).map(BigInt(_)).toVector
     a.exists(_.isDigit) && words(a) == words(b) && numbers(a) != numbers(b)
 

@@ -1,5 +1,7 @@
 package candela.diagnostics
 
+import java.util.Locale
+
 /** Text without power over a terminal: control characters, and those that only change how others
   * are shown, become visible. So do halves of surrogate pairs.
   */
@@ -20,7 +22,7 @@ object Visible:
         else if c < ' ' then result += (Pictures + c).toChar: Unit
         else if c == Delete then result += DeletePicture: Unit
         else if isSeen(c) then result ++= Character.toString(c): Unit
-        else result ++= f"<U+$c%04X>": Unit
+        else result ++= "<U+%04X>".formatLocal(Locale.ROOT, c): Unit
       result.toString
 
   private def isSeen(c: Int): Boolean = Character.getType(c).toByte match

@@ -3,6 +3,8 @@ package candela.image
 import candela.base.loop
 import candela.color.{Encoding, Gamut, Magma, Rgb, ToneCurve}
 
+import java.util.Locale
+
 /** Scale of the light before its tone curve. */
 enum Exposure:
   /** Powers of two. */
@@ -59,9 +61,10 @@ final case class DisplayTransform(
     if isPlain then Vector.empty
     else
       val stops = Math.log(scaleOf(image.toRgb).toDouble) / Math.log(2)
-      val range = f"luminance from -${DisplayTransform.Stops}%.0f to ${DisplayTransform.Stops}%.0f"
+      val range =
+        "luminance from -%1$.0f to %1$.0f".formatLocal(Locale.ROOT, DisplayTransform.Stops)
       Vector(
-        "exposure" -> "%.2f stops".formatLocal(java.util.Locale.ROOT, stops),
+        "exposure" -> "%.2f stops".formatLocal(Locale.ROOT, stops),
         if falseColor then "falseColor" -> s"$range stops about ${DisplayTransform.Grey}"
         else "toneCurve" -> curve.word
       )

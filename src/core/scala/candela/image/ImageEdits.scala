@@ -54,14 +54,20 @@ object ImageEdits:
       data(i) = if a > 0f then value / a else value
     Image(image.width, image.height, Image.RgbNames, data, image.encoding, image.colorSpace)
 
-  /** Pixels with a channel above `maxValue` are scaled down to it: their hue stays. */
+  /** Pixels with a channel above `maxValue` are scaled down to it: their hue stays. Beside an
+    * infinite channel, finite ones are black.
+    */
   def clamped(image: Image, maxValue: Float): Image =
     val data = image.data.clone
     val n = image.channels
     loop(image.width * image.height): pixel =>
       var greatest = 0f
       loop(n)(c => greatest = Math.max(greatest, data(pixel * n + c)))
-      if greatest > maxValue then loop(n)(c => data(pixel * n + c) *= maxValue / greatest)
+      if greatest > maxValue then
+        loop(n): c =>
+          val i = pixel * n + c
+          data(i) = if data(i).isInfinite then Math.signum(data(i)) * maxValue
+          else data(i) * (maxValue / greatest)
     withData(image, data)
 
   /** Upside down. */

@@ -6,6 +6,7 @@ import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
 import java.nio.{ByteBuffer, ByteOrder}
 import java.time.LocalDateTime
+import java.util.Locale
 import java.util.zip.{CRC32, ZipEntry, ZipOutputStream}
 
 /** NumPy's archives of arrays: what `numpy.load` reads. Each group of channels is an array of
@@ -105,6 +106,6 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
   private def quoted(text: String): String =
     text.flatMap:
       case c @ ('"' | '\\') => s"\\$c"
-      case c if c < ' ' => "\\u%04x".format(c.toInt)
+      case c if c < ' ' => "\\u%04x".formatLocal(Locale.ROOT, c.toInt)
       case c => c.toString
     .mkString("\"", "", "\"")

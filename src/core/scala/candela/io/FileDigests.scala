@@ -1,6 +1,7 @@
 package candela.io
 
 import java.nio.file.{Files, Path}
+import java.util.Locale
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.jdk.CollectionConverters.*
@@ -53,7 +54,7 @@ object FileDigests:
   private val Timed = Set("ext2", "ext3", "ext4", "xfs", "btrfs", "f2fs")
 
   private[candela] def isTimed(folder: Path): Boolean =
-    Try(Files.getFileStore(folder).`type`).toOption.exists(t => Timed(t.toLowerCase))
+    Try(Files.getFileStore(folder).`type`).toOption.exists(t => Timed(t.toLowerCase(Locale.ROOT)))
 
   /** Names that another process wrote may be none here. */
   private def isThere(folder: Path, name: String): Boolean =

@@ -2,6 +2,7 @@ package candela.io
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 import scala.util.Using
 
@@ -133,7 +134,8 @@ object ForeignFile:
     else if text.contains("<scene") then Some(ForeignFile(Mitsuba, "a Mitsuba scene"))
     else if text.contains("<COLLADA") then Some(ForeignFile(Model, "a COLLADA file"))
     else if text.contains("<svg") then Some(ForeignFile(Other, "an SVG image"))
-    else if text.toLowerCase.contains("<html") then Some(ForeignFile(Other, "an HTML page"))
+    else if text.toLowerCase(Locale.ROOT).contains("<html") then
+      Some(ForeignFile(Other, "an HTML page"))
     else Some(ForeignFile(Other, "an XML file"))
 
   /** Whether more than a tenth are control characters that texts don't have. */

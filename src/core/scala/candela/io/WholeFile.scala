@@ -8,6 +8,7 @@ import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
 import java.nio.file.StandardOpenOption.{APPEND, CREATE_NEW, WRITE}
 import java.nio.file.attribute.BasicFileAttributes
+import java.util.Locale
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.annotation.tailrec
@@ -213,7 +214,8 @@ object NextFile:
         val _ = Files.move(from, to, REPLACE_EXISTING)
 
   /** Short, because the file's own name may be as long as the file system allows. */
-  private def beginning(file: Path): String = f".candela-${file.getFileName.toString.hashCode}%08x-"
+  private def beginning(file: Path): String =
+    ".candela-%08x-".formatLocal(Locale.ROOT, file.getFileName.toString.hashCode)
 
   /** Deletes what killed runs have left of this file: nobody has locked it. */
   private def removeLeft(file: Path): Unit =

@@ -21,6 +21,9 @@ class ErrorRecorder(
   private val scatter = HalfScatter()
   private var spent = 0.0
 
+  // Samples per pixel from which all pixels have equally many: fewer are no half of those of each
+  private var firstEven = 0
+
   def points: Vector[CurvePoint] = curve.result()
 
   /** The latest; None before the first, and with a reference. */
@@ -36,8 +39,9 @@ class ErrorRecorder(
 
   override def frequency: Looks = if reference.isEmpty then estimates else Looks.Doublings
 
-  override def begins(samples: Int, film: Film): Unit =
-    if reference.isEmpty && samples > 0 then
+  override def begins(samples: Int, maxSamples: Int, film: Film): Unit =
+    firstEven = maxSamples
+    if reference.isEmpty && samples > 0 && samples == maxSamples then
       val weights = new Array[Float](film.width * film.height)
       val _ = scatter.add(samples, development(film, Some(weights)), weights, isLast = false)
 
@@ -102,7 +106,7 @@ class ErrorRecorder(
       case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
       case None =>
         val latest =
-          if !scatter.uses(pass.samples, pass.isLast) then None
+          if pass.samples < firstEven || !scatter.uses(pass.samples, pass.isLast) then None
           else scatter.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
         latest.orElse(estimate.filter(_ => pass.isLast)).map(_.at(pass.samples))
     val interval = this.interval(pass.samples)

@@ -46,11 +46,12 @@ final class GoalRule(
   override def stopsAfterPass: Boolean = ending.isDefined
   override def frequency: Looks = Looks.Waves
 
-  override def begins(samples: Int, film: Film): Unit =
+  override def begins(samples: Int, maxSamples: Int, film: Film): Unit =
     samplesDone = samples
     step = 1
     val error = earlier.map(e => Math.sqrt(e.estimate))
-    if isLow(samples, error) then end(GoalRule.Ending.Error) else recorder.begins(samples, film)
+    if isLow(samples, error) then end(GoalRule.Ending.Error)
+    else recorder.begins(samples, maxSamples, film)
 
   override def passed(pass: Pass, film: Film): Unit =
     val began = System.nanoTime

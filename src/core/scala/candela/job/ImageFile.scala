@@ -67,7 +67,7 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       "software" -> s"Candela ${Version.current}",
       // Wherever it is: the image is the same
       "scene" -> ImageFile.withoutFolder(name),
-      "dialect" -> prepared.description.dialect.toString.toLowerCase,
+      "dialect" -> prepared.description.dialect.toString.toLowerCase(Locale.ROOT),
       "seed" -> settings.seed.toString
     ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)

@@ -8,6 +8,7 @@ import candela.render.Rendering
 import candela.settings.{PointChoice, RenderGoal, RenderSettings}
 
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 /** The file of a reference: the mean of independent runs, with what tells which runs they are.
   *
@@ -53,7 +54,7 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
     */
   def write(mean: ReferenceMean, prepared: Prepared, last: Rendering): Unit =
     val errorFact =
-      mean.relativeError.map("relativeError" -> "%.6g".formatLocal(java.util.Locale.ROOT, _))
+      mean.relativeError.map("relativeError" -> "%.6g".formatLocal(Locale.ROOT, _))
     val seeds = s"${settings(0).seed} to ${settings(mean.runs - 1).seed}"
     val about = Vector(
       Runs -> mean.runs.toString,

@@ -1,5 +1,7 @@
 package candela.measure
 
+import java.util.Locale
+
 /** Image error metrics; docs/METRICS.md has definitions and sources.
   *
   * @param word name on the command line and in files
@@ -17,4 +19,5 @@ enum Metric(val word: String, val title: String):
   def hasMap: Boolean = this != Psnr
 
 object Metric:
-  def named(word: String): Option[Metric] = Metric.values.find(_.word == word.toLowerCase)
+  def named(word: String): Option[Metric] =
+    Metric.values.find(_.word == word.toLowerCase(Locale.ROOT))

@@ -3,6 +3,8 @@ package candela.mitsuba
 import candela.diagnostics.{Code, Suggest}
 import candela.color.Rgb
 
+import java.util.Locale
+
 /** Materials that Mitsuba knows by name. */
 object Indices:
 
@@ -95,7 +97,7 @@ object Indices:
     in.property(name).map(_.value) match
       case Some(Value.Text(material)) =>
         dielectrics.getOrElse(
-          material.toLowerCase, {
+          material.toLowerCase(Locale.ROOT), {
             val help = Suggest.help(material, dielectrics.keys)
             in.session.error(
               Code.UnknownType,

@@ -3,6 +3,7 @@ package candela.mitsuba
 import candela.base.Decimal
 import candela.color.Srgb
 
+import java.util.Locale
 import scala.util.Try
 
 /** Names and conventions of versions before 2, as those of Mitsuba 3.
@@ -16,7 +17,7 @@ private[mitsuba] final class OldNames(minor: Int):
   def upgraded(e: Element, parent: String = "scene"): Element =
     val tag = Tags.getOrElse(e.tag, e.tag)
     val isObject = Values.Kinds(tag) && (tag != "spectrum" || e("type").isDefined)
-    val oldType = e("type").filter(_ => isObject).map(_.toLowerCase)
+    val oldType = e("type").filter(_ => isObject).map(_.toLowerCase(Locale.ROOT))
     val attributes = e.attributes.map:
       case ("name", text) => "name" -> renamed(OldSurfaces.renamed(e.tag, snake(text)), parent)
       case ("type", _) if isObject => "type" -> typeOf(tag, oldType.get)
@@ -163,5 +164,5 @@ private[mitsuba] object OldNames:
   /** `toWorld` as `to_world`, `intIOR` as `int_ior`. */
   def snake(name: String): String =
     name.replaceAll("(?<=[a-z])(?=[A-Z])", "_").split("(?<=_)").map: part =>
-      if part.headOption.exists(_.isUpper) then part.toLowerCase else part
+      if part.headOption.exists(_.isUpper) then part.toLowerCase(Locale.ROOT) else part
     .mkString

@@ -3,6 +3,8 @@ package candela.mitsuba
 import candela.color.Rgb
 import candela.diagnostics.{Code, Suggest}
 
+import java.util.Locale
+
 /** Coefficients of a medium, in 1 / scene unit, and its index of refraction. */
 private[mitsuba] final case class Coefficients(sigmaA: Rgb, sigmaS: Rgb, eta: Double):
   def *(scale: Float): Coefficients = copy(sigmaA = sigmaA * scale, sigmaS = sigmaS * scale)
@@ -82,7 +84,7 @@ private[mitsuba] object Presets:
       val x = numbers.split(' ').map(_.toFloat)
       def triple(i: Int) = if i < x.length then Rgb(x(i), x(i + 1), x(i + 2)) else Rgb.Black
       // Marble is denser
-      name.toLowerCase ->
+      name.toLowerCase(Locale.ROOT) ->
         Measured(triple(0), triple(3), triple(6), if name == "Marble" then 1.5 else eta)
 
   /** In 0.6, the unit of media is a hundredth of that of the measurements. */
@@ -95,7 +97,7 @@ private[mitsuba] object Presets:
     val name = in.text("material", "skin1")
     val preset = measured.getOrElse(
       // 0.6 misspells one
-      name.toLowerCase.replace("budweiser beer", "budweiser beder"), {
+      name.toLowerCase(Locale.ROOT).replace("budweiser beer", "budweiser beder"), {
         in.session.error(
           Code.UnknownType,
           in.posOf("material"),

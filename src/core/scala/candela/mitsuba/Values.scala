@@ -6,6 +6,7 @@ import candela.io.{InputFile, IoReason, SceneFolder}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 
+import java.util.Locale
 import scala.util.Try
 
 /** Turns elements into objects and values.
@@ -74,7 +75,7 @@ final class Values(
       case "float" => Value.Number(number(text, e.pos))
       case "integer" => Value.Number(integer(text, e.pos))
       case "boolean" =>
-        text.trim.toLowerCase match
+        text.trim.toLowerCase(Locale.ROOT) match
           case "true" => Value.Flag(true)
           case "false" => Value.Flag(false)
           case other => fail(Code.ParameterValue, e.pos, s"expected true or false, found `$other`")

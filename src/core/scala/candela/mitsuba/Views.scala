@@ -4,6 +4,8 @@ import candela.diagnostics.{Code, SourcePos}
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
+import java.util.Locale
+
 /** Translates sensors with their films, filters and samplers.
   *
   * @param image name of the image, without a suffix
@@ -104,7 +106,7 @@ final class Views(session: Session, media: Media, image: String):
       Values.fail(Code.TooLarge, in.pos, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
     in.ignore("file_format", "banner", "compensate", "attach_log", "digits", "variable")
-    if in.text("tonemap_method", "gamma").toLowerCase != "gamma" then
+    if in.text("tonemap_method", "gamma").toLowerCase(Locale.ROOT) != "gamma" then
       in.warnUnsupported(Views.Linear, "tonemap_method")
     for (name, neutral) <- Views.ToneDefaults if in.number(name).exists(_ != neutral) do
       in.warnUnsupported(Views.Linear, name)
@@ -116,7 +118,8 @@ final class Views(session: Session, media: Media, image: String):
       val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
       Param.int("pixelbounds", in.pos, x, x + w, y, y + h)
     // Only multichannel integrators have several
-    val formats = in.text("pixel_format", "rgb").toLowerCase.split("[\\s,]+").filter(_.nonEmpty)
+    val formats =
+      in.text("pixel_format", "rgb").toLowerCase(Locale.ROOT).split("[\\s,]+").filter(_.nonEmpty)
     val format = formats.headOption.getOrElse("rgb")
     in.ignore("channel_names")
     val formatPosition = in.posOf("pixel_format")
@@ -139,7 +142,7 @@ final class Views(session: Session, media: Media, image: String):
       .map(Param.string("pixelformat", formatPosition, _))
     val edges = in.flag("high_quality_edges", false)
     val samplesBorder = in.flag("sample_border", edges)
-    val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
+    val isHalf = in.text("component_format", "float16").toLowerCase(Locale.ROOT) == "float16"
     val params = Seq(
       Param.int("xresolution", in.posOf("width"), width),
       Param.int("yresolution", in.posOf("height"), height),

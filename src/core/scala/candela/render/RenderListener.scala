@@ -60,9 +60,10 @@ abstract class RenderListener:
 
   /** Called before the first pass.
     *
-    * @param samples samples per pixel of an earlier rendering that is continued
+    * @param samples    samples per pixel of an earlier rendering that is continued
+    * @param maxSamples of the pixel that has most of them: more if it was killed
     */
-  def begins(samples: Int, film: Film): Unit = ()
+  def begins(samples: Int, maxSamples: Int, film: Film): Unit = ()
 
   /** Called while no sample is added; not for a cancelled pass. */
   def passed(pass: Pass, film: Film): Unit = ()
@@ -86,8 +87,8 @@ object RenderListener:
     override def started(live: Live): Unit = listeners.foreach(_.started(live))
     override def progressed(progress: Progress): Unit = listeners.foreach(_.progressed(progress))
     override def frequency: Looks = listeners.map(_.frequency).fold(Looks.Never)(_.max(_))
-    override def begins(samples: Int, film: Film): Unit =
-      listeners.foreach(_.begins(samples, film))
+    override def begins(samples: Int, maxSamples: Int, film: Film): Unit =
+      listeners.foreach(_.begins(samples, maxSamples, film))
     override def passed(pass: Pass, film: Film): Unit =
       for l <- listeners if l.frequency.include(pass) do l.passed(pass, film)
     override def errorAt(samples: Double): Option[Double] =

@@ -32,7 +32,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
 
   def run(): Rendering =
     listener.started(live)
-    listener.begins(earlierSamples, job.film)
+    listener.begins(earlierSamples, state.maxSamplesDone, job.film)
     try
       // A rendering that a goal ends has millions of waves, which nobody looks through at its end
       pauses.dropWhile(schedule.firstSample(_) <= earlierSamples).takeWhile(_ => continues)

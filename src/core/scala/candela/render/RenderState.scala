@@ -12,7 +12,10 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
   private var earlier = Vector.empty[DiscardedSamples]
 
   /** Samples that every pixel has at least, of those of its shard. */
-  def samplesDone: Int = job.schedule.samplesDone(queue.progress)
+  def samplesDone: Int = job.schedule.samplesDone(queue.progress).min
+
+  /** Samples that some pixel has. */
+  private[render] def maxSamplesDone: Int = job.schedule.samplesDone(queue.progress).max
 
   /** Whether some pixel can have so many samples. */
   private[render] def hasReached(samples: Int): Boolean = (0 until job.schedule.pieces).exists(i =>

@@ -66,8 +66,9 @@ private[render] abstract class Schedule(
   /** Whether a piece with this progress has so many samples per pixel, planned or beyond. */
   def hasReached(piece: Int, progress: Long, samples: Int): Boolean
 
-  final def samplesDone(progress: AtomicLongArray): Int =
-    (0 until pieces).map(i => samplesOf(i, progress.get(i))).min
+  /** Samples per pixel of each piece. */
+  final def samplesDone(progress: AtomicLongArray): IndexedSeq[Int] =
+    (0 until pieces).map(i => samplesOf(i, progress.get(i)))
 
   /** Waves beyond the planned ones are of equal size. */
   def firstSample(wave: Int): Int =

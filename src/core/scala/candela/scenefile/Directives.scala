@@ -5,6 +5,8 @@ import scala.jdk.CollectionConverters.*
 
 import candela.math.Transform
 
+import java.util.Locale
+
 /** Valid position of a directive: before `WorldBegin`, after it, or both. */
 enum Section:
   case Options, World, Anywhere
@@ -206,7 +208,8 @@ object Directives:
     ,
     Directive("ColorSpace", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
-      if ColorSpaces.contains(name.toLowerCase) then scene.colorSpace(name.toLowerCase)
+      if ColorSpaces.contains(name.toLowerCase(Locale.ROOT)) then
+        scene.colorSpace(name.toLowerCase(Locale.ROOT))
       else
         val help = Suggest.help(name, ColorSpaces)
         in.report(Problem.error(Code.UnknownSystem, at, s"unknown colour space `$name`", help))
@@ -252,7 +255,7 @@ object SceneOptions:
 
   /** The name without type, capitals, `-` and `_`: an option's spellings are equivalent. */
   def plain(written: String): String =
-    written.trim.split("[ \t]+").last.toLowerCase.filterNot(c => c == '-' || c == '_')
+    written.trim.split("[ \t]+").last.toLowerCase(Locale.ROOT).filterNot(c => c == '-' || c == '_')
 
   def typeOf(written: String, at: SourcePos): ParamType =
     val name = plain(written)

@@ -3,6 +3,7 @@ package candela.scenefile
 import candela.base.loop
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.util.Locale
 
 /** A text and its place: line and column count from 1. */
 final case class PlacedText(text: String, line: Int, column: Int)
@@ -153,7 +154,7 @@ final class LineReader(
     hasNext && {
       val i = if isAt('-') || isAt('+') then cursor + 1 else cursor
       i + 2 < lineEnd && {
-        val letters = String(source.bytes, i, 3, ISO_8859_1).toLowerCase
+        val letters = String(source.bytes, i, 3, ISO_8859_1).toLowerCase(Locale.ROOT)
         letters == "nan" || letters == "inf" || letters == "1.#"
       }
     }

@@ -9,6 +9,7 @@ import candela.integrators.CausticsMode
 import candela.image.Exposure
 import candela.scenefile.{Dialect, Resolution}
 
+import java.util.Locale
 import scala.util.Try
 
 /** A value as text, in film files and on command lines.
@@ -48,7 +49,7 @@ object TextForm:
   private def oneOf[A](all: Seq[A], name: A => String): TextForm[A] =
     named(all, name, all.map(name).mkString("one of ", ", ", ""))
 
-  private def lower(value: Any): String = value.toString.toLowerCase
+  private def lower(value: Any): String = value.toString.toLowerCase(Locale.ROOT)
 
   /** Values of items between commas. */
   private[settings] def ofItems[I, A](
@@ -98,7 +99,7 @@ object TextForm:
     "a number, e.g. 1000 or 20M",
     {
       case Count(digits, unit, binary) =>
-        val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase) + 1)
+        val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase(Locale.ROOT)) + 1)
         val base = if Option(binary).exists(_.nonEmpty) then 1024 else 1000
         val value = BigDecimal(digits) * BigDecimal(base).pow(power)
         Option.when(value.isValidLong || value < Long.MaxValue)(value.toLong)
@@ -152,7 +153,7 @@ object TextForm:
 
   given TextForm[Fireflies] = TextForm(
     "keep, reweight, or clamp:X with X > 0",
-    _.toLowerCase match
+    _.toLowerCase(Locale.ROOT) match
       case Fireflies.Kept.word => Some(Fireflies.Kept)
       case Fireflies.Reweighted.word => Some(Fireflies.Reweighted)
       case s"clamp:$most" =>
@@ -188,7 +189,7 @@ object TextForm:
     def isAcross(pixels: Int) = pixels >= 1 && pixels <= MaxAcross
     TextForm(
       "a size, a width or a percentage, e.g. 640x360, 640 or 50%",
-      _.toLowerCase match
+      _.toLowerCase(Locale.ROOT) match
         case Size(w, h) =>
           Option.when(isAcross(w.toInt) && isAcross(h.toInt))(Resolution.Size(w.toInt, h.toInt))
         case s"$number%" =>
@@ -285,7 +286,7 @@ object TextForm:
     TextForm(
       Layer.values.map(_.word).mkString("one or more of ", ", ", ""),
       text =>
-        val (word, precision) = text.trim.toLowerCase match
+        val (word, precision) = text.trim.toLowerCase(Locale.ROOT) match
           case s"$w:half" => (w, Some(true))
           case s"$w:float" => (w, Some(false))
           case w => (w, None)

@@ -2,6 +2,7 @@ package candela.convert
 
 import candela.diagnostics.{Code, Problem, SceneError}
 import java.nio.file.Path
+import java.util.Locale
 
 import scala.collection.mutable
 
@@ -152,7 +153,7 @@ object Converter:
       val spectral = SpectralColors.warning(scene, program(from), SpectralColors.Plain)
       Converted(InstanceMotions.toV4(scene), clamped.warnings ++ spectral)
 
-  private def program(d: Dialect) = s"pbrt-${d.toString.toLowerCase}"
+  private def program(d: Dialect) = s"pbrt-${d.toString.toLowerCase(Locale.ROOT)}"
 
   /** Declarations of another dialect than the scene's come first: then it is of one dialect. Those
     * of the target's stay as they are.
@@ -173,7 +174,7 @@ object Converter:
     case _ => refuse(from)
 
   private def refuse(from: Dialect): Nothing =
-    val message = s"can't convert a ${from.toString.toLowerCase} scene to v2"
+    val message = s"can't convert a ${from.toString.toLowerCase(Locale.ROOT)} scene to v2"
     throw SceneError(Problem.general(Code.NoConversion, message, Some("use --to v3")))
 
 /** Traverses the declarations of a description. */

@@ -12,6 +12,7 @@ import candela.scenefile.{
   ShapeDescription, TextureDescription
 }
 
+import java.util.Locale
 import scala.collection.mutable
 
 /** Replaces what pbrt-v4 lacks in scenes of glTF models: their material, channels of images, and
@@ -189,7 +190,7 @@ private[convert] object FromGltf:
 
     /** The values of the channel that a texture reads. */
     private def grays(d: Declaration, image: Image): Array[Float] =
-      val name = channelOf(d).toUpperCase
+      val name = channelOf(d).toUpperCase(Locale.ROOT)
       val channelIndex = image.channelNames.indexOf(name)
       val c = if channelIndex >= 0 || name == "A" then channelIndex else image.colorChannels.head
       val values = new Array[Float](image.width * image.height)

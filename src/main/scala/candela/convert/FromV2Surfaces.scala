@@ -4,6 +4,8 @@ import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.pow
 
+import java.util.Locale
+
 /** Materials and textures, from v2 to v3. */
 object FromV2Surfaces:
   import Steps.*
@@ -89,7 +91,8 @@ object FromV2Surfaces:
   /** v2 flips only TGA files vertically. */
   private val upright =
     Step("`vscale`, `vdelta` except of .tga files", "flipped vertically"): s =>
-      val file = s.peek("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase
+      val file =
+        s.peek("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase(Locale.ROOT)
       val isUv = s.peek("mapping").forall(_.strings.headOption.contains("uv"))
       if !file.endsWith(".tga") then
         if isUv then

@@ -8,6 +8,8 @@ import scala.collection.mutable
 import candela.math.Transform
 import candela.scenefile.*
 
+import java.util.Locale
+
 /** Conversion tables from one dialect to the next.
   *
   * @param defaults implementations that the source dialect uses where the scene names none, by
@@ -88,9 +90,9 @@ final class PassRun(
     table.rule(d.name) match
       case Some(rule) => Some(Statement(d, this, rule).result())
       case None =>
-        val dialect = pass.to.toString.toLowerCase
+        val dialect = pass.to.toString.toLowerCase(Locale.ROOT)
         val instead = table.fallback.fold("ignored")(f => s"using \"$f\"")
-        val source = s"${category.toLowerCase} \"${d.name}\""
+        val source = s"${category.toLowerCase(Locale.ROOT)} \"${d.name}\""
         warn(Code.Inexpressible, d.pos, s"$dialect has no equivalent of $source; $instead")
         table.fallback.map(name => d.copy(name = name, params = Vector.empty))
 

@@ -5,7 +5,7 @@ import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{InputFile, SceneFolder, WholeFile}
 import java.nio.file.{Files, Path}
 import java.security.MessageDigest
-import java.util.Arrays
+import java.util.{Arrays, Locale}
 
 import scala.collection.mutable
 import scala.util.Try
@@ -27,7 +27,7 @@ final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
   /** Writes the bytes to a file atomically; returns its name. */
   def add(kind: String, extension: String, bytes: Array[Byte]): String =
     val hash = MessageDigest.getInstance("SHA-256").digest(bytes)
-    val name = s"$kind-${hash.take(8).map(b => f"$b%02x").mkString}.$extension"
+    val name = s"$kind-${hash.take(8).map("%02x".formatLocal(Locale.ROOT, _)).mkString}.$extension"
     val path = folder.resolve(name)
     if !Files.exists(path) then
       check(path)
@@ -85,7 +85,8 @@ object RewrittenImages:
     if s.run.pass.from == Dialect.V4 then image.linear.toRgb
     else
       val stored = Image(image.width, image.height, image.channelNames, image.data).toRgb
-      val isFromBelow = s.run.ends._1 == Dialect.V2 && name.toLowerCase.endsWith(".tga")
+      val isFromBelow =
+        s.run.ends._1 == Dialect.V2 && name.toLowerCase(Locale.ROOT).endsWith(".tga")
       if isFromBelow then stored.upsideDown else stored
 
   private def name(p: Param): String = p.strings.head.replace('\\', '/')
@@ -169,7 +170,7 @@ object RewrittenImages:
     */
   def raw(folder: SceneFolder, p: Param, files: SideFiles): Either[String, String] =
     val name = p.strings.head
-    if name.toLowerCase.endsWith(".png") then Right(name)
+    if name.toLowerCase(Locale.ROOT).endsWith(".png") then Right(name)
     else
       try
         val image = ImageFiles.load(file(folder, p)).toImage

@@ -6,6 +6,8 @@ import scala.collection.mutable
 import candela.color.Rgb
 import candela.scenefile.*
 
+import java.util.Locale
+
 /** A statement during conversion: steps take its parameters and add those of the target dialect. */
 final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule):
   private val pending = mutable.LinkedHashMap.from(declaration.params.map(p => p.name -> p))
@@ -17,7 +19,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   def name: String = declaration.name
 
   /** The target dialect's name, for messages. */
-  def target: String = run.pass.to.toString.toLowerCase
+  def target: String = run.pass.to.toString.toLowerCase(Locale.ROOT)
 
   /** The statement as a texture of the source dialect. */
   def asTexture(valueType: String): TextureDescription =

@@ -6,6 +6,8 @@ import candela.color.{Rgb, Srgb}
 import candela.math.pow
 import candela.scenefile.*
 
+import java.util.Locale
+
 /** Textures, from v4 to v3. */
 object ToV3Textures:
   import Steps.*
@@ -32,7 +34,7 @@ object ToV3Textures:
             p.pos
           )
 
-  private def fileName(p: Param) = p.strings.headOption.getOrElse("").toLowerCase
+  private def fileName(p: Param) = p.strings.headOption.getOrElse("").toLowerCase(Locale.ROOT)
 
   private def decoding(name: String, encoding: String): Float => Float =
     val isPng = name.endsWith(".png")
@@ -59,7 +61,7 @@ object ToV3Textures:
 
   private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")
-    val kind = p.flatMap(_.strings.headOption).getOrElse("bilinear").toLowerCase
+    val kind = p.flatMap(_.strings.headOption).getOrElse("bilinear").toLowerCase(Locale.ROOT)
     if kind != "ewa" then s.addBool("trilinear", true)
     for q <- p if kind == "point" do
       s.warn(

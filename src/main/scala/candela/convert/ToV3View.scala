@@ -35,7 +35,9 @@ object ToV3View:
   )
 
   private val exposure = Step("`iso`", "`scale`, times the exposure time"): s =>
-    val factor = s.takeNumber("iso", 100f) / 100f * ToV4View.shutterTime(s)
+    // v3's lens systems, too, integrate over the exposure time
+    val isLens = s.run.scene.camera.exists(_.name == "realistic")
+    val factor = s.takeNumber("iso", 100f) / 100f * (if isLens then 1f else ToV4View.shutterTime(s))
     if factor != 1f then s.addFloat("scale", factor)
 
   private val components = Step("`maxcomponentvalue`", "`maxsampleluminance`, with a warning"): s =>

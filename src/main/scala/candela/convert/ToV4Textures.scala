@@ -4,6 +4,8 @@ import candela.diagnostics.Code
 import candela.color.{Rgb, Srgb}
 import candela.scenefile.*
 
+import java.util.Locale
+
 /** Textures, from v3 to v4. */
 object ToV4Textures:
   import Steps.*
@@ -14,7 +16,7 @@ object ToV4Textures:
   private val encoding: Step =
     Step("`filename`, `gamma`", "`filename`, `encoding`; or a new image"): s =>
       for p <- s.take("filename") do
-        val file = p.strings.headOption.getOrElse("").toLowerCase
+        val file = p.strings.headOption.getOrElse("").toLowerCase(Locale.ROOT)
         val (isPng, isTga) = (file.endsWith(".png"), file.endsWith(".tga"))
         val decodes = s.takeBool("gamma", isPng || isTga)
         if decodes == (isPng || isTga) then s.add("filename", p)
@@ -29,7 +31,7 @@ object ToV4Textures:
   private val luminance: Step =
     Step("`filename` of a coloured image", "its luminance, as a new image"): s =>
       for p <- s.peek("filename") do
-        val file = p.strings.headOption.getOrElse("").toLowerCase
+        val file = p.strings.headOption.getOrElse("").toLowerCase(Locale.ROOT)
         val decodes = s.peek("gamma").flatMap(_.bools.headOption)
           .getOrElse(file.endsWith(".png") || file.endsWith(".tga"))
         def number(stored: Rgb) =
@@ -111,7 +113,7 @@ object ToV4Textures:
       if t.texture.name == "imagemap"
       file <- t.texture.param("filename")
     yield
-      val name = file.strings.headOption.getOrElse("").toLowerCase
+      val name = file.strings.headOption.getOrElse("").toLowerCase(Locale.ROOT)
       val isBytes = name.endsWith(".png") || name.endsWith(".tga")
       val decodes = t.texture.param("gamma").flatMap(_.bools.headOption).getOrElse(isBytes)
       val factors = Array(by.r, by.g, by.b)

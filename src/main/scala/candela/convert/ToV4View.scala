@@ -4,6 +4,8 @@ import candela.diagnostics.Code
 import candela.math.sqrt
 import candela.scenefile.Dialect
 
+import java.util.Locale
+
 /** Options and media, from v3 to v4. */
 object ToV4View:
   import Steps.*
@@ -38,15 +40,8 @@ object ToV4View:
       retain("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       planes,
-      Step("`simpleweighting`", "the film's exposure, with a warning")(s =>
-        val p = s.take("simpleweighting")
-        if !p.exists(_.bools == Vector(false)) then
-          s.warn(
-            Code.Inexpressible,
-            p.fold(s.declaration.pos)(_.pos),
-            "v4 always weights by the film's exposure"
-          )
-      )
+      // LensExposure has its effect on the film
+      Step("`simpleweighting`", "the film's `iso`")(s => s.take("simpleweighting"): Unit)
     )
   )
 
@@ -54,7 +49,8 @@ object ToV4View:
   private val filename: Step = Step("`filename`", "`filename`, or .exr if v4 can't write it"): s =>
     for p <- s.take("filename") do
       val name = p.strings.headOption.getOrElse("")
-      val isKnown = Seq(".exr", ".png", ".pfm", ".qoi").exists(name.toLowerCase.endsWith)
+      val isKnown =
+        Seq(".exr", ".png", ".pfm", ".qoi").exists(name.toLowerCase(Locale.ROOT).endsWith)
       if isKnown then s.add("filename", p)
       else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.pos)
 
@@ -71,7 +67,8 @@ object ToV4View:
       retain("xresolution", "yresolution", "cropwindow", "diagonal"),
       filename,
       Step("`scale`", "`iso`, times 100, divided by the exposure time")(s =>
-        val factor = s.takeNumber("scale", 1f) / shutterTime(s)
+        val lens = LensExposure.of(s.run.scene)
+        val factor = s.takeNumber("scale", 1f) * lens / shutterTime(s)
         if factor != 1f then s.addFloat("iso", 100f * factor)
       ),
       Step("`maxsampleluminance`", "`maxcomponentvalue`, with a warning")(s =>

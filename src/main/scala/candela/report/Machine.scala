@@ -2,6 +2,7 @@ package candela.report
 
 import java.lang.management.ManagementFactory
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Try
@@ -27,10 +28,10 @@ final case class Machine(
   def rows: Vector[(String, String)] = Vector(
     "processor" -> processor,
     "hardware threads" -> cores.toString,
-    "memory" -> f"${memoryBytes / 1e9}%.0f GB",
+    "memory" -> "%.0f GB".formatLocal(Locale.ROOT, memoryBytes / 1e9),
     "system" -> system,
     "Java" -> java
-  ) ++ load.map(l => "load at the start" -> "%.2f".formatLocal(_root_.java.util.Locale.ROOT, l))
+  ) ++ load.map(l => "load at the start" -> "%.2f".formatLocal(Locale.ROOT, l))
 
 object Machine:
 

@@ -4,6 +4,8 @@ import candela.color.Magma
 import candela.image.Image
 import candela.measure.{ErrorMap, ImagePair, Metric}
 
+import java.util.Locale
+
 import scalatags.Text.all.*
 
 /** Image viewer: flips between images, compares them with a slider, magnifies, shows pixel values
@@ -106,7 +108,7 @@ private[candela] object Viewer:
       Option.when(pictures.exists(_.isReference))(Metric.Flip)
     choices.map(m => option(value := m.word, m.title))
 
-  private def gradient: String = Magma.Colors.map("#%06x".format(_)).mkString(",")
+  private def gradient: String = Magma.Colors.map("#%06x".formatLocal(Locale.ROOT, _)).mkString(",")
 
   private def json(pictures: Vector[Picture], reference: Option[Picture]): String =
     val packed = pictures.map: p =>

@@ -2,7 +2,7 @@ package candela.watch
 
 import java.net.{Inet6Address, InetAddress, NetworkInterface}
 import java.security.SecureRandom
-import java.util.HexFormat
+import java.util.{HexFormat, Locale}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Try
@@ -42,7 +42,7 @@ private object Access:
     * nobody else can be at them.
     */
   private def isLoopback(host: String): Boolean =
-    host.toLowerCase.replaceFirst(":\\d+$", "") match
+    host.toLowerCase(Locale.ROOT).replaceFirst(":\\d+$", "") match
       case "localhost" => true
       case s"[$literal]" if literal.contains(':') =>
         // With a colon, it is never looked up as a name.

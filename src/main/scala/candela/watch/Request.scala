@@ -2,6 +2,7 @@ package candela.watch
 
 import java.net.URLDecoder
 import java.nio.charset.StandardCharsets.UTF_8
+import java.util.Locale
 
 import scala.util.Try
 
@@ -32,7 +33,9 @@ private[watch] object Request:
   /** @param head all up to the empty line, or as far as it fits; None: it is no request */
   def parse(head: String): Option[Request] =
     val lines = head.split("\r\n").toVector.dropWhile(_.isEmpty)
-    val fields = lines.drop(1).collect { case Field(name, value) => name.toLowerCase -> value.trim }
+    val fields = lines.drop(1).collect { case Field(name, value) =>
+      name.toLowerCase(Locale.ROOT) -> value.trim
+    }
     def values(name: String) = fields.collect { case (`name`, value) => value }
     def hasBody = values("content-length").exists(_ != "0") || values("transfer-encoding").nonEmpty
     val isWhole = head.endsWith("\r\n\r\n") && fields.size == lines.size - 1

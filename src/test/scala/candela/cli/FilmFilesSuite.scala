@@ -94,6 +94,18 @@ class FilmFilesSuite extends AnyFunSuite:
         "8/2147483647 to 2147483646/2147483647 are missing [E1005]")
       f.run(Vector("merge", "--partial", "--outfile", f("x.exr"), f("7.film")))
 
+  test("a film that is moved away from its scene is told apart from a wrong name"):
+    withScene(): f =>
+      f.render("--spp", "2", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      val moved = Files.createDirectory(Path.of(f("moved"))).resolve("a.film")
+      Files.move(Path.of(f("a.film")), moved)
+      for command <- Vector(Vector("merge", "--outfile", f("b.exr")), Vector("resume")) do
+        val why = f.fail(command :+ moved.toString).linesIterator.toVector
+        assert(
+          why(0).startsWith("error: no such scene file: ") && why(0).contains("the scene of `")
+        )
+        assert(why(1) == " a film that is moved needs its scene in the same place beside it")
+
   test("layers are merged, too"):
     withScene(): f =>
       val layers = Vector("--spp", "5", "--aov", Layer.values.map(_.word).mkString(","))

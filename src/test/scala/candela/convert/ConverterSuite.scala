@@ -66,7 +66,7 @@ object ConverterSuite:
         "v2-textures v3-curves v3-defaults-bare v3-defaults-lights " +
         "v3-defaults-noise v3-filter-mitchell v3-filter-sinc v3-fog v3-media " +
         "v3-meshes v3-mirrored-glass v3-motion v3-orthographic-crop v3-panorama v3-quadrics " +
-        "v3-textures"
+        "v3-realistic v3-textures"
     (inV3.split(' ').map(_ -> Dialect.V3) ++ inV4.split(' ').map(_ -> Dialect.V4)).toSet
 
   /** Scenes that lose what is seen, and the difference that this makes: a quarter more than it was
@@ -149,7 +149,6 @@ object ConverterSuite:
       "v3-mlt" -> 0.3,
       "v3-point-lights" -> 0.5,
       "v3-procedural" -> 3.4,
-      "v3-realistic" -> 4.45,
       "v3-subsurface" -> 0.65
     )
     inV3.map((name, most) => (name, Dialect.V3) -> most) ++

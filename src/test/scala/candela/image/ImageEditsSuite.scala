@@ -21,6 +21,8 @@ class ImageEditsSuite extends AnyFunSuite:
   test("clamping keeps the hue of bright pixels, and dim ones as they are"):
     val made = ImageEdits.clamped(image(1, 2, 8, 0, 1, 1, 1, 0), 4f)
     assert(made.data.toVector == Vector(0.5f, 1f, 4f, 0f, 1f, 1f, 1f, 0f))
+    val endless = ImageEdits.clamped(image(1, Float.PositiveInfinity, 8, 0), 4f)
+    assert(endless.data.toVector == Vector(0f, 4f, 0f, 0f))
 
   test("rows are turned upside down"):
     val made = ImageEdits.flipped(Image(2, 3, Vector("Y"), Array(1f, 2f, 3f, 4f, 5f, 6f)))

@@ -77,7 +77,7 @@ class GoalRuleSuite extends AnyFunSuite:
     val rendering = rendered(byError)
     assert(byError.endedBy(rendering) == GoalRule.Ending.Error)
     val timed = goal(RenderGoal(time = Some(1), error = Some(1e-9)))
-    timed.begins(0, film)
+    timed.begins(0, 0, film)
     timed.passed(Pass(1, 0, 1, Vector.empty, clock = 1), film)
     assert(timed.endedBy(rendering) == GoalRule.Ending.Time)
     assert(timed.endedBy(rendering.copy(samplesDone = 1000)) == GoalRule.Ending.Samples)
@@ -91,7 +91,7 @@ class GoalRuleSuite extends AnyFunSuite:
     */
   private def ended(time: Double, largest: Int, actual: Double = 1): Double =
     val timed = goal(RenderGoal(time = Some(time)))
-    timed.begins(0, film)
+    timed.begins(0, 0, film)
     var clock = 0.0
     var samples = 0
     while !timed.stopsAfterPass do
@@ -116,40 +116,40 @@ class GoalRuleSuite extends AnyFunSuite:
 
   test("a film is continued by a sample that tells how long they take"):
     val timed = goal(RenderGoal(time = Some(4)))
-    timed.begins(64, film)
+    timed.begins(64, 64, film)
     assert(timed.maxSamples == 1)
 
   test("a slow start does not end a rendering before its time"):
     val timed = goal(RenderGoal(time = Some(1.2)))
-    timed.begins(0, film)
+    timed.begins(0, 0, film)
     timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
     assert(!timed.stopsAfterPass && timed.maxSamples == 2)
 
   test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
     val timed = goal(RenderGoal(time = Some(20)))
-    timed.begins(0, film)
+    timed.begins(0, 0, film)
     for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
     assert(timed.maxSamples == 17 && !timed.stopsNow(20.3, 0) && timed.stopsNow(20.5, 0))
     val chains = goal(RenderGoal(time = Some(20)))
-    chains.begins(0, film)
+    chains.begins(0, 0, film)
     chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
     assert(!chains.stopsAfterPass && !chains.stopsNow(19.9, 0) && chains.stopsNow(20, 0))
 
   test("an error is measured in time, or not at all"):
     for (clock, isKnown) <- Vector(2.0 -> true, 2.9 -> false) do
       val timed = goal(RenderGoal(time = Some(2)))
-      timed.begins(0, film)
+      timed.begins(0, 0, film)
       for i <- 1 to 2 do
         timed.passed(Pass(i, 0, 1, Vector.empty, clock = if i == 1 then 1 else clock), film)
       assert(timed.errorAt(2).isDefined == isKnown && timed.stopsAfterPass, clock)
     val cancelled = goal(RenderGoal(error = Some(1e9)))
-    cancelled.begins(0, film)
+    cancelled.begins(0, 0, film)
     for i <- 1 to 2 do cancelled.passed(Pass(i, 0, 1, Vector.empty, isStopped = () => true), film)
     assert(cancelled.errorAt(2).isEmpty)
 
   test("where an error is looked at does not depend on a time"):
     val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
-    both.begins(0, film)
+    both.begins(0, 0, film)
     both.passed(Pass(8, 0, 1, Vector.empty, isUnshortened = false, clock = 1), film)
     assert(!both.stopsAfterPass)
     // An end that the time cuts short is not the error's

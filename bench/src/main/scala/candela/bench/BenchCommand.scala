@@ -6,6 +6,7 @@ import candela.io.{FileName, ForeignFile, ForeignKind, SceneFolder, Scratch, Who
 import java.lang.management.ManagementFactory
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
@@ -26,11 +27,11 @@ final class BenchService extends CommandService:
 
   override def idle: Options => Vector[String] = o =>
     val settings = BenchOptions.of(o)
-    val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase.endsWith(".html"))
+    val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase(Locale.ROOT).endsWith(".html"))
     IdleOptions.idle("no-pictures", ": only .html files have pictures")(
       !settings.pictures && !isPage
     ) ++ IdleOptions.idle("references", ": a suite names its own")(
-      settings.references.isDefined && o.files.forall(_.toLowerCase.endsWith(".conf"))
+      settings.references.isDefined && o.files.forall(_.toLowerCase(Locale.ROOT).endsWith(".conf"))
     )
 
   def run(options: Options, terminal: Terminal, report: Report): ExitCode =

@@ -10,6 +10,7 @@ import candela.settings.{ReadSettings, UpAxis}
 import java.nio.ByteBuffer
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
+import java.util.Locale
 
 /** Formats of models that have neither camera nor light, and leave open which axis points up.
   *
@@ -68,7 +69,7 @@ private[models] object MeshFormat:
       usual: UpAxis
   ): SceneDescription =
     val opposite = if usual == UpAxis.Y then UpAxis.Z else UpAxis.Y
-    def word(a: UpAxis) = a.toString.toLowerCase
+    def word(a: UpAxis) = a.toString.toLowerCase(Locale.ROOT)
     val upward = Option.when(asked.isEmpty):
       val turned = if usual == UpAxis.Z then ", turned to y" else ""
       s"${word(usual)} points up$turned: --up ${word(opposite)} changes that"

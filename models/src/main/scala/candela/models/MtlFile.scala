@@ -5,6 +5,7 @@ import candela.io.InputFile
 import candela.scenefile.{LineReader, PlacedText, Source}
 
 import java.nio.file.Path
+import java.util.Locale
 
 import scala.collection.mutable
 
@@ -122,7 +123,7 @@ private final class MtlParser(
     all.result()
 
   private def statement(word: String, at: SourcePos): Unit =
-    val key = word.toLowerCase
+    val key = word.toLowerCase(Locale.ROOT)
     if key == "newmtl" then
       all ++= material
       material = Some(MtlMaterial(in.remainder().text, at, folder, Map.empty, Map.empty))
@@ -141,7 +142,7 @@ private final class MtlParser(
       session.warn(at, message, Code.UnknownDirective, help)
 
   private def numbers(word: String, at: SourcePos): Unit =
-    val key = word.toLowerCase
+    val key = word.toLowerCase(Locale.ROOT)
     val start = in.mark
     val form = in.word()
     if form == "spectral" || form == "xyz" then
@@ -167,12 +168,12 @@ private final class MtlParser(
     while isOption do
       val start = if in.hasNext then in.mark else -1
       val word = if start >= 0 then in.word() else ""
-      word.toLowerCase match
+      word.toLowerCase(Locale.ROOT) match
         case "-s" => m = m.copy(scale = pair(1f))
         case "-o" => m = m.copy(offset = pair(0f))
         case "-bm" => m = m.copy(bump = in.finite())
         case "-clamp" => if in.word() == "on" then m = m.copy(wrap = Wraps("clamp", "clamp"))
-        case "-imfchan" => m = m.copy(channel = Some(in.word().toLowerCase))
+        case "-imfchan" => m = m.copy(channel = Some(in.word().toLowerCase(Locale.ROOT)))
         case "-mm" =>
           val (base, gain) = (in.finite(), in.finite())
           if base != 0f || gain != 1f then unsupported("-mm", at)

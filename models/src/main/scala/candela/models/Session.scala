@@ -7,6 +7,7 @@ import candela.scenefile.{
 }
 
 import java.nio.file.Path
+import java.util.Locale
 
 import scala.collection.mutable
 
@@ -119,7 +120,11 @@ private object Members:
 
   private def isNear(name: String, other: String): Boolean =
     name.length >= MinLength && Math.abs(name.length - other.length) <= MaxDistance &&
-      Suggest.distance(name.toLowerCase, other.toLowerCase, MaxDistance) <= MaxDistance
+      Suggest.distance(
+        name.toLowerCase(Locale.ROOT),
+        other.toLowerCase(Locale.ROOT),
+        MaxDistance
+      ) <= MaxDistance
 
 private[models] object Session:
   def fail(

@@ -10,6 +10,7 @@ import candela.settings.UpAxis
 import java.io.IOException
 import java.lang.Float.{floatToRawIntBits, intBitsToFloat}
 import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.util.Locale
 
 /** Models in the format of stereolithography, as scenes. */
 final class StlFormat extends MeshFormat("STL", "stl", UpAxis.Z):
@@ -37,7 +38,7 @@ private object StlFormat:
   /** Binary files may begin with `solid`, too, but their numbers have bytes that no text has. */
   private def isText(source: Source): Boolean =
     val start = source.bytes.take(Math.min(source.limit, ForeignFile.Head)).drop(source.start)
-    String(start, ISO_8859_1).stripLeading.toLowerCase.startsWith("solid") &&
+    String(start, ISO_8859_1).stripLeading.toLowerCase(Locale.ROOT).startsWith("solid") &&
     !start.exists(b => b >= 0 && b < ' ' && !Character.isWhitespace(b.toChar))
 
 /** Triangles that are being read. Vertices at one point are one, unless triangles have colours. */
@@ -90,7 +91,7 @@ private final class StlText(
     while in.advance() do
       while in.hasNext do
         val start = in.mark
-        in.word().toLowerCase match
+        in.word().toLowerCase(Locale.ROOT) match
           case "vertex" =>
             triangles.add(in.finite(), in.finite(), in.finite())
             corners += 1

@@ -11,6 +11,8 @@ import candela.math.*
 import candela.sampling.Distribution2D
 import candela.scenefile.Dialect
 
+import java.util.Locale
+
 final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     extends LightRecipe(name, "environment light, constant or from an image", dialects)
     with SampleCounts:
@@ -172,7 +174,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     var sum = 0.0
     val (width, height) = (image.width, image.height)
     val basis = site.resources.basis
-    val isSwapped = isEqualArea && filename().toLowerCase.endsWith(".exr")
+    val isSwapped = isEqualArea && filename().toLowerCase(Locale.ROOT).endsWith(".exr")
     val map = if isEqualArea then EqualAreaMap else LatLongMap
     val luminances = image.onSphere(map, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
       val srgb = basis.toSrgb(Rgb(r, g, b))

@@ -16,6 +16,7 @@ import candela.textures.{
   AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, Texels, Wrap
 }
 
+import java.util.Locale
 import scala.annotation.unused
 
 /** Recipes of materials. */
@@ -184,7 +185,7 @@ abstract class MaterialRecipe(
 
     private def image(p: Param)(using site: Site): Option[MipLevel] =
       // pbrt-v4 decodes 8-bit files, except for PNG
-      val isPng = file().toLowerCase.endsWith(".png")
+      val isPng = file().toLowerCase(Locale.ROOT).endsWith(".png")
       def decodes(encoding: Encoding) =
         val isDecoded = site.rules.decodesNormals && encoding != Encoding.Linear && !isPng
         if isDecoded then

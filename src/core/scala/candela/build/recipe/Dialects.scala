@@ -2,6 +2,8 @@ package candela.build.recipe
 
 import candela.scenefile.Dialect
 
+import java.util.Locale
+
 // Sets of dialects that support a parameter or a recipe. Mitsuba's scenes have what v4's have, too
 private[build] val every: Set[Dialect] = Dialect.ofPbrt.toSet
 private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
@@ -15,7 +17,7 @@ private[build] val onlyOthers: Set[Dialect] = Dialect.ofOthers
 
 /** Display names of dialects. */
 object Dialects:
-  def name(dialect: Dialect): String = dialect.toString.toLowerCase
+  def name(dialect: Dialect): String = dialect.toString.toLowerCase(Locale.ROOT)
 
   /** `v2`, `v2 and v3`, `v2, v3, v4 and mitsuba`. */
   def list(dialects: Set[Dialect]): String =

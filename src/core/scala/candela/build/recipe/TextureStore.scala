@@ -6,6 +6,7 @@ import candela.diagnostics.{Code, Refusal}
 import candela.io.{CacheFolder, FileDigests, InputFile, Keep, PartFiles, PartForm, Sha256}
 import java.io.IOException
 import java.nio.file.Path
+import java.util.Locale
 import java.util.concurrent.ConcurrentHashMap
 
 import candela.image.ImageSize
@@ -128,7 +129,7 @@ object TextureStore:
     */
   private[build] def isFromBelow(light: Declaration, dialect: Dialect): Boolean =
     dialect == Dialect.V2 && ImageNames.flatMap(light.param(_)).exists:
-      _.strings.headOption.exists(_.toLowerCase.endsWith(".tga"))
+      _.strings.headOption.exists(_.toLowerCase(Locale.ROOT).endsWith(".tga"))
 
   /** Whether a light's image may be in tiles: maps of environments, with rows from the top. */
   private[build] def mayBeTiled(light: Declaration, dialect: Dialect): Boolean =

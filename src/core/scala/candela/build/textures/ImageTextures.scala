@@ -9,6 +9,8 @@ import candela.math.*
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.*
 
+import java.util.Locale
+
 /** @param category what its texels are */
 abstract class ImageMapRecipe[A](standIn: String, category: String)
     extends MappedRecipe[A]("imagemap", "image texture"):
@@ -137,7 +139,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =
-    val file = filename().toLowerCase
+    val file = filename().toLowerCase(Locale.ROOT)
     val suffix = Seq(".png", ".tga").find(file.endsWith).mkString
     val decoding = site.dialect match
       case Dialect.V2 => s"${scale()} ${gammaNumber()}"
@@ -164,10 +166,10 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 
   private def filtered(levels: MipMap)(using site: Site): FilteredLookup =
     val dialect = site.dialect
-    val bottomUp = dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
+    val bottomUp = dialect != Dialect.V2 || filename().toLowerCase(Locale.ROOT).endsWith(".tga")
     val isV4 = dialect == Dialect.V4
     val kind =
-      if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
+      if isV4 then filter().toLowerCase(Locale.ROOT) else if trilinear() then "trilinear" else "ewa"
     site.resources.askForFootprints(s"$kind image textures")
     val pyramid = if site.resources.settings.meanImages then MipMap.ofMean(levels) else levels
     kind match
@@ -185,7 +187,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         val (s, g) = (scale(), gammaNumber())
         x => pow(s * x, g)
       case Dialect.V3 =>
-        val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
+        val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase(Locale.ROOT).endsWith)
         val isNumber = site.declaration.param("gamma").exists(_.paramType == ParamType.Float)
         if isNumber then
           site.warn(Code.IdleParameter, "`gamma` must be a bool in v3; the number is ignored")
@@ -194,7 +196,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
         // Floating-point images are linear; in pbrt, `encoding` applies to PNG, all else is sRGB
         val isOpen = site.rules.decodesAll && stored != Encoding.Linear
-        if isOpen || filename().toLowerCase.endsWith(".png") then encoded()
+        if isOpen || filename().toLowerCase(Locale.ROOT).endsWith(".png") then encoded()
         else if stored == Encoding.Linear then identity
         else Encoding.Srgb.decode(_)
 
@@ -242,7 +244,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
     channel() match
       case "all" => site.rules.toNumber(image, decode)
       case "opacity" => Texels.meanOrAlpha(image, decode)
-      case name => Texels.channel(image, name.toUpperCase, decode)
+      case name => Texels.channel(image, name.toUpperCase(Locale.ROOT), decode)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
     val _ = stored.colorChannels // an error without any

@@ -8,6 +8,7 @@ import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.job.{Prepared, SceneFormat, SceneLoader}
 
 import java.nio.file.Path
+import java.util.Locale
 
 import scala.util.Using
 
@@ -80,4 +81,4 @@ final class CheckCommand(
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
     // All models have the dialect of glTF's materials
     val kind = SceneFormat.named(Path.of(scene)).filter(_.isModel).fold(s"${d.dialect}")(_.name)
-    (Vector(kind.toLowerCase, film) ++ counted).mkString(", ")
+    (Vector(kind.toLowerCase(Locale.ROOT), film) ++ counted).mkString(", ")

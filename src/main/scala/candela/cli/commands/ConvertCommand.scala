@@ -15,6 +15,7 @@ import java.io.{BufferedWriter, OutputStreamWriter, Writer}
 import java.nio.channels.Channels
 import java.nio.charset.StandardCharsets
 import java.nio.file.Path
+import java.util.Locale
 
 /** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
@@ -70,7 +71,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
       ConvertCommand.LargeMesh
 
   private def summary(to: Dialect, warnings: Vector[Problem]): String =
-    val dialect = to.toString.toLowerCase
+    val dialect = to.toString.toLowerCase(Locale.ROOT)
     if warnings.isEmpty then dialect
     else s"$dialect, ${Figures.count(warnings.distinct.size, "warning")}"
 

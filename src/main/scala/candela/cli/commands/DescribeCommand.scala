@@ -3,6 +3,7 @@ package candela.cli.commands
 import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.io.WholeFile
 import java.nio.charset.StandardCharsets.UTF_8
+import java.util.Locale
 
 import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
@@ -102,14 +103,14 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     texts.reduce((a, b) => a ++ Vector("", "") ++ b)
 
   private def unknown(kind: String, word: String, known: Vector[String]): Nothing =
-    val start = known.find(_.toLowerCase.startsWith(word.toLowerCase))
+    val start = known.find(_.toLowerCase(Locale.ROOT).startsWith(word.toLowerCase(Locale.ROOT)))
     val help = Suggest.nearest(word, known).orElse(start).map(k => s"did you mean `$k`?")
     val dialectNote =
-      options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
+      options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase(Locale.ROOT)}")
     throw SceneError(
       Problem.general(
         Code.UnknownEntry,
-        s"unknown ${kind.toLowerCase} `$word`$dialectNote",
+        s"unknown ${kind.toLowerCase(Locale.ROOT)} `$word`$dialectNote",
         help.orElse(Some("`candela describe` lists all categories"))
       )
     )
@@ -327,7 +328,10 @@ final class ReferenceMarkdown(described: Described):
 
   /** The address of a heading, as GitHub makes it. */
   private def anchor(heading: String): String =
-    heading.toLowerCase.filter(c => c.isLetterOrDigit || "-_ ".contains(c)).replace(' ', '-')
+    heading.toLowerCase(Locale.ROOT).filter(c => c.isLetterOrDigit || "-_ ".contains(c)).replace(
+      ' ',
+      '-'
+    )
 
   private def table(parameters: Vector[DescribedParameter]): Vector[String] =
     val rows = parameters.map: p =>

@@ -6,6 +6,8 @@ import candela.diagnostics.{
 import candela.cli.options.{OptionText, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal, TextTable}
 
+import java.util.Locale
+
 /** `candela explain`: what problems mean. */
 final class ExplainCommand(options: Options, terminal: Terminal, report: Report):
 
@@ -18,7 +20,7 @@ final class ExplainCommand(options: Options, terminal: Terminal, report: Report)
     ExitCode.Done
 
   private def codeOf(word: String): Code = Code.of(word).getOrElse:
-    val nearest = Suggest.nearest(word.toUpperCase, Code.values.map(_.word))
+    val nearest = Suggest.nearest(word.toUpperCase(Locale.ROOT), Code.values.map(_.word))
     val help = nearest.fold("`candela explain` lists all")(n => s"did you mean `$n`?")
     throw SceneError(Problem.general(
       Code.UnknownEntry,

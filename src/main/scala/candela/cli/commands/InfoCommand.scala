@@ -4,6 +4,7 @@ import candela.base.{loop, Figures}
 import candela.color.Encoding
 import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path
+import java.util.Locale
 
 import candela.cli.files.{FilmInput, InputImages, OutputFiles}
 import candela.cli.options.Options
@@ -64,7 +65,7 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       case _: ByteImage => "8 bits"
       case _ if stored.encoding == Encoding.Srgb => "16 bits"
       case _ => ImageFiles.precision(path).getOrElse("floats")
-    val encoding = stored.encoding.toString.toLowerCase
+    val encoding = stored.encoding.toString.toLowerCase(Locale.ROOT)
     val about = Vector(
       "size" -> s"${stored.width}x${stored.height}",
       "channels" -> s"${stored.channelNames.mkString(", ")}, $bits, $encoding",

@@ -7,7 +7,7 @@ import candela.cli.terminal.Report
 import candela.job.{FilmHeaders, FilmKeeper, Render, SceneLoader}
 import candela.render.storage.FilmFile
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 /** Reads film files, and finds their scenes. */
 private[cli] object FilmInput:
@@ -38,6 +38,12 @@ private[cli] object FilmInput:
     // The film names it, and its user may not know it
     for why <- InputFile.obstacle(file) if film.header.text.isEmpty do
       FilmKeeper.fail(Code.Unreadable, s"can't read `$scene`, the scene of `${film.path}`: $why")
+    if film.header.text.isEmpty && !Files.exists(file) then
+      FilmKeeper.fail(
+        Code.NoSuchScene,
+        s"no such scene file: `$scene`, the scene of `${film.path}`",
+        "a film that is moved needs its scene in the same place beside it"
+      )
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),

@@ -1,5 +1,7 @@
 package candela.cli.options
 
+import java.util.Locale
+
 import scopt.OptionDef
 
 /** docs/COMMANDS.md: all commands and options, as the option tables have them. */
@@ -11,7 +13,8 @@ private[cli] object CommandsPage:
       Manual.sections.flatMap(section)
 
   private def overview: Vector[String] =
-    val links = Manual.sections.map(s => s"[${s.title.toLowerCase}](#${anchor(s.title)})")
+    val links =
+      Manual.sections.map(s => s"[${s.title.toLowerCase(Locale.ROOT)}](#${anchor(s.title)})")
     "" +: table(
       Vector("command", "effect"),
       CommandTable.rows.map: r =>
@@ -55,7 +58,7 @@ private[cli] object CommandsPage:
         case Manual.Part.Paragraph(text) => Vector(text)
         case Manual.Part.Table(head, rows) => table(head, rows))
 
-  private def anchor(title: String): String = title.toLowerCase.replace(' ', '-')
+  private def anchor(title: String): String = title.toLowerCase(Locale.ROOT).replace(' ', '-')
 
   private def table(head: Vector[String], rows: Vector[Vector[String]]): Vector[String] =
     row(head) +: ("|" + "---|" * head.size) +: rows.map(row)

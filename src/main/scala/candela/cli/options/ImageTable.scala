@@ -4,6 +4,8 @@ import candela.color.ColorSpace
 import candela.image.{Contents, OutputFormat}
 import candela.measure.PixelWindow
 
+import java.util.Locale
+
 import scopt.{OParser, Read}
 
 /** How `image` changes an image.
@@ -45,7 +47,7 @@ private[cli] object ImageTable extends OptionRows:
 
   private given Read[ImageSize] = Read.reads: text =>
     def side(s: String) = s.toIntOption.filter(n => n > 0 && n <= 65536)
-    text.toLowerCase.split("x", -1) match
+    text.toLowerCase(Locale.ROOT).split("x", -1) match
       case Array(w, "") if side(w).isDefined => ImageSize(side(w), None)
       case Array("", h) if side(h).isDefined => ImageSize(None, side(h))
       case Array(w, h) if side(w).isDefined && side(h).isDefined => ImageSize(side(w), side(h))

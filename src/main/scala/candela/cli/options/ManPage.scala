@@ -1,6 +1,8 @@
 package candela.cli.options
 
 import candela.base.Version
+
+import java.util.Locale
 import scopt.OptionDef
 
 /** The manual page candela(1), as the option tables have it.
@@ -31,7 +33,7 @@ private[cli] object ManPage:
     s"$short${bold(s"--${o.name}")}$value"
 
   private def section(s: Manual.Section): Vector[String] =
-    s".SH ${s.title.toUpperCase}" +: s.parts.zipWithIndex.flatMap: (part, i) =>
+    s".SH ${s.title.toUpperCase(Locale.ROOT)}" +: s.parts.zipWithIndex.flatMap: (part, i) =>
       part match
         case Manual.Part.Paragraph(p) => Option.when(i > 0)(".PP").toVector ++ text(p)
         case Manual.Part.Table(_, rows) =>
@@ -56,5 +58,5 @@ private[cli] object ManPage:
     val ascii = StringBuilder()
     roff.codePoints.forEach: c =>
       if c < 128 then ascii += c.toChar: Unit
-      else ascii ++= f"\\[u$c%04X]": Unit
+      else ascii ++= "\\[u%04X]".formatLocal(Locale.ROOT, c): Unit
     if ascii.startsWith(".") || ascii.startsWith("'") then s"\\&$ascii" else ascii.toString

@@ -5,6 +5,8 @@ import candela.build.recipe.Dialects
 import candela.scenefile.Dialect
 import candela.scenefile.Dialect.*
 
+import java.util.Locale
+
 /** What an option of pbrt's command line is here. */
 enum Here:
   /** The same option, by the same name. */
@@ -103,7 +105,8 @@ object PbrtOptions:
   )
 
   /** As pbrt-v4 compares names: without case and dashes. */
-  private def plain(name: String): String = name.filter(c => c != '-' && c != '_').toLowerCase
+  private def plain(name: String): String =
+    name.filter(c => c != '-' && c != '_').toLowerCase(Locale.ROOT)
 
   private val byName: Map[String, PbrtOption] = all.map(o => plain(o.name) -> o).toMap
 

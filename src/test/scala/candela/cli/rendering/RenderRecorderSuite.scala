@@ -1,10 +1,10 @@
 package candela.cli.rendering
 
 import candela.color.Rgb
-import candela.film.Development
+import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.LogLogFit
-import candela.render.{RenderControl, RenderPlan, Renderer, TinyPlan}
+import candela.render.{Looks, Pass, RenderControl, RenderListener, RenderPlan, Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -48,6 +48,16 @@ class RenderRecorderSuite extends AnyFunSuite:
     for p <- recorder.points do
       assert(Math.abs(p.errors.mse / (variance / p.samples) - 1) < tolerance, p.samples)
       assert(p.errors.meanRatio.isEmpty && p.errors.flip.isEmpty)
+
+  test("halves after a killed rendering begin where all pixels have equally many samples"):
+    val recorder = RenderRecorder(Development(), None)
+    val uneven = new RenderListener:
+      override def frequency: Looks = recorder.frequency
+      override def begins(samples: Int, maxSamples: Int, film: Film): Unit =
+        recorder.begins(3, 13, film)
+      override def passed(pass: Pass, film: Film): Unit = recorder.passed(pass, film)
+    val _ = Renderer.render(plan, RenderControl(2, listener = uneven))
+    assert(recorder.points.map(_.samples) == Vector(32, 48))
 
   test("time goes on from pass to pass, and every worker has its own"):
     val passes = recorded(None).passes

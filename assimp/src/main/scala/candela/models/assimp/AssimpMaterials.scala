@@ -9,6 +9,7 @@ import org.lwjgl.assimp.Assimp.*
 
 import java.awt.image.BufferedImage
 import java.nio.ByteBuffer
+import java.util.Locale
 
 /** Materials of Assimp as those of MTL, which has the same: colours, exponents of Phong, roughness,
   * and an image of each.
@@ -33,7 +34,7 @@ private[assimp] final class AssimpMaterials(scene: AIScene, session: Session, su
   val all: Vector[MtlMaterial] = Arrays.all(scene.mMaterials)(AIMaterial.create).map(material)
 
   private def hint(t: AITexture): String =
-    val word = t.achFormatHintString.takeWhile(c => c.isLetterOrDigit).toLowerCase
+    val word = t.achFormatHintString.takeWhile(c => c.isLetterOrDigit).toLowerCase(Locale.ROOT)
     if word.isEmpty then "png" else word
 
   private def content(t: AITexture): ByteBuffer =
@@ -87,7 +88,7 @@ private[assimp] final class AssimpMaterials(scene: AIScene, session: Session, su
     val kinds =
       (1 to aiTextureType_GLTF_METALLIC_ROUGHNESS).filter(aiGetMaterialTextureCount(m, _) > 0)
     for kind <- kinds if !Maps.contains(kind) && !Meaningless(kind) do
-      val word = aiTextureTypeToString(kind).toLowerCase
+      val word = aiTextureTypeToString(kind).toLowerCase(Locale.ROOT)
       session.warn(at, s"images of the kind `$word` are not supported; left out")
     for kind <- kinds if Maps.contains(kind) && aiGetMaterialTextureCount(m, kind) > 1 do
       session.warn(at, s"the first of several images of its ${Maps(kind)} is used")

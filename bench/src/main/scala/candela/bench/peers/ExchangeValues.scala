@@ -5,6 +5,8 @@ import candela.color.Colorimetry.White
 import candela.convert.Values
 import candela.scenefile.{Declaration, Dialect, Param, ParamType}
 
+import java.util.Locale
+
 /** Reads parameters of pbrt-v4's statements as numbers and as red, green and blue.
   *
   * @param reject receives what can't be expressed
@@ -17,7 +19,7 @@ private[peers] final class ExchangeValues(val reject: String => Unit):
     for p <- d.params if !names.contains(p.name) && !p.isDefault do
       reject(s"`${p.name}` of ${statement(d)}")
 
-  def statement(d: Declaration): String = s"${d.category.toLowerCase} \"${d.name}\""
+  def statement(d: Declaration): String = s"${d.category.toLowerCase(Locale.ROOT)} \"${d.name}\""
 
   def number(d: Declaration, name: String, default: Float): Float =
     d.param(name) match

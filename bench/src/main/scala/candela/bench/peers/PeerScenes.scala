@@ -10,6 +10,7 @@ import candela.settings.{BuildControl, ReadSettings}
 import java.io.StringWriter
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
+import java.util.Locale
 
 /** The files of a scene, by the formats of programs, and why it has none of the other formats.
   *
@@ -52,7 +53,7 @@ object PeerScenes:
       isSame(read)
     )
 
-  private def name(d: Dialect): String = d.toString.toLowerCase
+  private def name(d: Dialect): String = d.toString.toLowerCase(Locale.ROOT)
 
   /** The file and its scene, or why it can't be written. */
   private def written(

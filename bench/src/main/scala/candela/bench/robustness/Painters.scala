@@ -3,6 +3,7 @@ package candela.bench.robustness
 import candela.io.WholeFile
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
+import java.util.Locale
 
 import candela.bench.report.RobustProgram
 import candela.bench.suite.{Absent, Commands, Installed, Outcome, Present}
@@ -106,7 +107,7 @@ object OtherPainter:
         val named = present.variable.fold("")(v => s" ($v)")
         Left(title -> s"`${present.words.head}`$named is not installed")
       case Right(present) =>
-        val key = title.toLowerCase.replace(' ', '-')
+        val key = title.toLowerCase(Locale.ROOT).replace(' ', '-')
         val words = (scene: Path, out: Path) => present.words ++ options(scene, out)
         val robustProgram = RobustProgram(key, title, isOurs = false)
         Right(OtherPainter(robustProgram, folder, commands, language, words))
