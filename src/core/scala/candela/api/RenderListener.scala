@@ -6,7 +6,7 @@ import candela.render.{Live, Looks, Pass as CorePass, Progress as CoreProgress}
 
 import java.time.Duration
 import java.util.function.Consumer
-import java.util.{Optional, OptionalDouble}
+import java.util.{Objects, Optional, OptionalDouble}
 
 import scala.jdk.OptionConverters.*
 
@@ -89,7 +89,7 @@ private[api] object Times:
     * @throws SceneException unless it is above 0
     */
   def positive(what: String, time: Duration): Double =
-    if time.isNegative || time.isZero then
+    if Objects.requireNonNull(time, what).isNegative || time.isZero then
       Problems.fail(Code.OptionValue, s"$what must be above 0, found $time")
     time.getSeconds + time.getNano * 1e-9
 

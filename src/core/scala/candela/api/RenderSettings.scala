@@ -5,7 +5,7 @@ import candela.aov.Layer
 import candela.settings.{RenderGoal, RenderSettings as CoreSettings, SettingsCodec, TextForm}
 
 import java.time.Duration
-import java.util.List as JList
+import java.util.{List as JList, Objects}
 
 import scala.annotation.varargs
 import scala.jdk.CollectionConverters.*
@@ -42,7 +42,7 @@ final class RenderSettings private (private[api] val core: CoreSettings):
     */
   @varargs def withLayers(names: String*): RenderSettings =
     val added = names.toVector.map: name =>
-      TextForm.layer.read(name).getOrElse:
+      TextForm.layer.read(Objects.requireNonNull(name, "name")).getOrElse:
         val help = Suggest.help(name, Layer.values.map(_.word).toVector)
         Problems.fail(Code.UnknownEntry, s"unknown layer `$name`", help)
     change: s =>

@@ -118,8 +118,13 @@ private[mitsuba] final class OldNames(minor: Int):
 private[mitsuba] object OldNames:
   /** Those of a scene's version, if it is old; before 0.3, there was none. */
   def of(scene: Element): Option[OldNames] =
-    val isFirst = scene("version").isEmpty && scene.children.exists(e => FirstTags(e.tag))
-    if isFirst then Some(OldNames(2)) else ofVersion(scene)
+    if scene("version").nonEmpty then ofVersion(scene)
+    else if scene.children.exists(e => FirstTags(e.tag)) then Some(OldNames(2))
+    else Option.when(hasTransform(scene))(OldNames(6))
+
+  /** Whether a transform has the name of 0.6. */
+  private def hasTransform(e: Element): Boolean =
+    e("name").contains("toWorld") || e.children.exists(hasTransform)
 
   private def ofVersion(scene: Element): Option[OldNames] =
     val numbers = scene("version").toVector.flatMap(_.split('.')).map(_.toIntOption)

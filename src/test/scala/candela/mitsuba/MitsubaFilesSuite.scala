@@ -91,6 +91,14 @@ class MitsubaFilesSuite extends AnyFunSuite:
     assert(messages.exists(_.startsWith("`toWorld` of shape \"sphere\" must be")), messages)
     assert(messages.exists(_.startsWith("`rrDepth` must be at least 1")), messages)
 
+  test("a file without a version is of 0.6 if a transform has its name"):
+    for name <- Vector("toWorld", "to_world") do
+      val scene = read(
+        s"""<scene><sensor type="perspective"><transform name="$name"/></sensor>
+          <integrator type="path"><integer name="maxDepth" value="5"/></integrator></scene>"""
+      )
+      assert(scene.warnings.exists(_.message.contains("maxDepth")) == (name == "to_world"))
+
   test("colours of bytes are used as they are, with a warning"):
     def warnings(color: String, scale: String) =
       val ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
