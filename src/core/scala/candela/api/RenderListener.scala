@@ -42,7 +42,9 @@ final class Progress private[api] (of: CoreProgress):
   /** Planned camera samples; unknown if a goal ends the rendering. */
   def planned: Long = of.total
 
-  /** Completed fraction, in [0, 1]: of the samples, or of the time if a goal ends the rendering. */
+  /** Completed fraction, in [0, 1]: of the samples. If a goal ends the rendering: of its expected
+    * time, which may change; 0 until it is known.
+    */
   def part: Double = of.fraction
   def elapsed: Duration = Times.of(of.seconds)
 

@@ -39,7 +39,7 @@ final class RenderResult private[api] (
   def discarded: Long = rendering.discarded.fold(0L)(_.count)
 
   /** Estimated error of the image, the root of the relative mean squared error: 0.01 is 1 %.
-    * Present from 4 samples per pixel on, with [[RenderControl.withErrorEstimates]] or a goal; of a
+    * Present from 8 samples per pixel on, with [[RenderControl.withErrorEstimates]] or a goal; of a
     * film that is complete already, if it was estimated then.
     */
   def error: OptionalDouble = relative.toJavaPrimitive

@@ -139,8 +139,8 @@ object GoalRule:
     */
   private val WarmUpFactors = Vector(0.25, 0.5, 1.0)
 
-  /** Fewer samples per pixel say little about an error. */
-  val MinSamples = 4
+  /** Fewer samples per pixel say little about an error: their halves leave gaps. */
+  val MinSamples = 8
 
   /** The samples with which a goal may be reached, if they are known. */
   private[candela] def range(samples: Interval): Option[SampleRange] =

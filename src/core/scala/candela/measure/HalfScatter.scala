@@ -11,9 +11,9 @@ import candela.image.Image
   * and would hide its error. Light that no path has found is unknown.
   */
 final class HalfScatter:
-  import HalfScatter.{Scatters, State}
+  import HalfScatter.State
   private var former = Option.empty[State]
-  private var scatters = Option.empty[Scatters]
+  private var scatters = Option.empty[Array[Float]]
   private var latest = Option.empty[ErrorEstimate]
 
   /** The latest; None before the first. */
@@ -21,10 +21,10 @@ final class HalfScatter:
 
   /** The squared error of each value of the image after so many samples per pixel. */
   def squares(samples: Double): Option[Array[Float]] =
-    for e <- latest; s <- scatters
+    for e <- latest; values <- scatters
     yield
-      val factor = e.factor * e.falloff(samples)
-      s.values.map(v => (v * factor).toFloat)
+      val scale = e.samples / samples
+      values.map(v => (v * scale).toFloat)
 
   /** Whether the state after so many samples per pixel is used: after 2ᵏ, of a continued rendering
     * the first, and the last if there is no estimate yet.
@@ -52,24 +52,15 @@ final class HalfScatter:
         None
       case Some(half) if uses(samples, isLast) =>
         val values = HalfScatter.scatter(half, state, isStopped)
-        // V(1) is that of independent samples, so D(2) says nothing of the trend
-        val earlier = scatters.filter(_ => samples == 2 * half.samples && samples > 4)
-        val estimate = HalfScatter.estimate(state, values, earlier, isStopped)
+        val estimate = HalfScatter.estimate(state, values, isStopped)
         former = Some(state)
-        scatters = Some(Scatters(values, state.weight))
+        scatters = Some(values)
         latest = Some(estimate)
         latest
       case _ => None
 
 object HalfScatter:
-  private final case class State(samples: Int, image: Image, weights: Array[Float]):
-    lazy val weight: Double =
-      var sum = 0.0
-      loop(weights.length)(i => sum += weights(i))
-      sum
-
-  /** Of each value, between two halves of samples of this weight. */
-  private final case class Scatters(values: Array[Float], weight: Double)
+  private final case class State(samples: Int, image: Image, weights: Array[Float])
 
   /** (A − B)² times both shares of the weight, which is (A − B)² / 4 for equal halves. */
   private def scatter(half: State, now: State, isStopped: () => Boolean): Array[Float] =
@@ -91,12 +82,11 @@ object HalfScatter:
   private def estimate(
       now: State,
       values: Array[Float],
-      earlier: Option[Scatters],
       isStopped: () => Boolean
   ): ErrorEstimate =
     val image = now.image
     val means = LocalMeans(image, values)
-    var absolute, relative, lowest, squares, before = 0.0
+    var absolute, relative, lowest, squares = 0.0
     loop(image.height): y =>
       GivenUp.check(isStopped)
       loop(image.width): x =>
@@ -108,12 +98,8 @@ object HalfScatter:
           absolute += values(i)
           pixel += values(i) * weight
           lowest += values(i) * LocalMeans.weight(Math.max(mean, image.data(i)))
-          for e <- earlier do before += e.values(i) * weight
         relative += pixel
         squares += pixel * pixel
-    // As if all samples had the same weight: those of guided paths count more
-    val decay = earlier.filter(_ => relative > 0).map: e =>
-      before / relative * 2 * e.weight / now.weight
     val pixels = if squares > 0 then relative * relative / squares else values.length.toDouble
     val count = values.length
-    ErrorEstimate(now.samples, absolute / count, relative / count, lowest / count, decay, pixels)
+    ErrorEstimate(now.samples, absolute / count, relative / count, lowest / count, pixels)

@@ -94,6 +94,7 @@ final class Session(
       case _ => ()
     plugins.toMap
 
+  expanded.elements.flatMap(Attributes.ignored).foreach(report)
   for e <- expanded.elements if e.tag == "ref"; id <- e("id") do plugin(id, e.pos): Unit
 
   private var missingThings = 0

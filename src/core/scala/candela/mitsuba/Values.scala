@@ -281,6 +281,7 @@ private[mitsuba] object Transforms:
         regular(Transform.scale(v(0), v(1), v(2)), "zero scale")
       case "rotate" =>
         val v = axes(0)
+        if v.forall(_ == 0) then fail(Code.Transform, e.pos, "a rotation needs an axis")
         val degrees = e("angle").fold(fail(
           Code.UnknownElement,
           e.pos,

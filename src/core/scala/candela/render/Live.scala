@@ -20,6 +20,7 @@ final class Live private[render] (
   @volatile private var wantsMore = false
   @volatile private var further = 0
   @volatile private var expected = Outlook()
+  @volatile private var isOver = false
 
   /** Whether to go on when the planned samples are taken, until cancelled or no longer wanted. */
   def keepsOn: Boolean = canKeepOn && wantsMore
@@ -28,13 +29,17 @@ final class Live private[render] (
   private[render] def extend(samples: Int): Unit = further += samples
   private[render] def expect(outlook: Outlook): Unit = expected = outlook
 
+  /** All is done, as planned or by a goal. */
+  private[render] def end(): Unit = isOver = true
+
   /** Samples per pixel to take, as far as known. */
   private[render] def samplesPerPixel: Int =
     Math.min(plan.samplesPerPixel.toLong + further, RenderPlan.Endless).toInt
 
   def progress: Progress =
+    val outlook = if isOver then expected.copy(left = Some(0)) else expected
     val total = planned + further * plan.sampled.pixels
-    Progress(queue.samplesTaken.sum + queue.samplesSpared.sum, total, elapsed(), expected)
+    Progress(queue.samplesTaken.sum + queue.samplesSpared.sum, total, elapsed(), outlook, isOver)
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =

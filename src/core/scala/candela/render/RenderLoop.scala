@@ -38,6 +38,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
       pauses.dropWhile(schedule.firstSample(_) <= earlierSamples).takeWhile(_ => continues)
         .foreach(renderUntil)
       keepOn()
+      if isComplete(state.samplesDone) then live.end()
       reportProgress()
     catch
       // Of a listener, or an interrupt; a sample that fails may be in the film in part
@@ -142,6 +143,9 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
 
   private def result: Rendering =
     val rendering = live.rendering.copy(earlier = earlierSamples)
-    val hasAll = rendering.samplesDone >= plan.samplesPerPixel
-    val isComplete = hasAll || rule.stopsAfterPass && rendering.samplesDone > 0
-    if isComplete then rendering.copy(samplesPerPixel = rendering.samplesDone) else rendering
+    if isComplete(rendering.samplesDone) then
+      rendering.copy(samplesPerPixel = rendering.samplesDone)
+    else rendering
+
+  private def isComplete(samplesDone: Int): Boolean =
+    samplesDone >= plan.samplesPerPixel || rule.stopsAfterPass && samplesDone > 0

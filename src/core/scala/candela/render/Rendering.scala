@@ -10,19 +10,23 @@ import candela.image.Image
   *
   * @param done    camera samples taken, or found to be needless, of `total`
   * @param seconds elapsed time
+  * @param isOver  whether all is done
   */
 final case class Progress(
     done: Long,
     total: Long,
     seconds: Double,
-    outlook: Outlook = Outlook()
+    outlook: Outlook = Outlook(),
+    isOver: Boolean = false
 ):
-  /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time, if that is
-    * known.
+  /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its expected time,
+    * if that is known.
     */
   def knownFraction: Option[Double] =
-    if outlook.hasGoal then outlook.left.map(l => seconds / Math.max(seconds + l, 1e-9))
-    else Some(if total == 0 then 1 else done.toDouble / total)
+    val ofSamples = if total == 0 then 1 else done.toDouble / total
+    if isOver then Some(1)
+    else if !outlook.hasGoal then Some(ofSamples)
+    else outlook.left.map(l => Math.max(ofSamples, seconds / Math.max(seconds + l, 1e-9)))
 
   /** Likewise; 0 if it is unknown. */
   def fraction: Double = knownFraction.getOrElse(0)

@@ -100,7 +100,7 @@ final class LiveView(
       observer.snapshot.fold(Vector.empty)(s => LayerTitles.titled(s.layers)),
       rendering.samplesDone,
       Option.unless(rendering.isOpenEnded)(rendering.samplesPerPixel),
-      if isOver && rendering.isComplete then 1.0 else progress.fraction,
+      progress.fraction,
       progress.seconds,
       progress.outlook.left.filter(_ => !isOver),
       progress.outlook.rate.filter(_ => !isOver).getOrElse(rate),

@@ -119,7 +119,7 @@ class ProblemsSuite extends AnyFunSuite:
   test("a goal that is missed is told of, one that is reached is not"):
     val scene = LibraryScenes.built().scene()
     for (error, expected) <- Vector(1e-6 -> Vector("E1104"), 0.9 -> Vector.empty) do
-      val settings = RenderSettings().withError(error).withSamples(4)
+      val settings = RenderSettings().withError(error).withSamples(8)
       val told = Using.resource(scene.prepare(settings, 2))(_.render(2).problems)
       assert(told.stream.map(_.number).toList == java.util.List.of(expected*), told)
     val limited = ReadSettings().withLimit("samples", "8")

@@ -8,9 +8,9 @@ import scala.util.Using
 
 final class RenderResultSuite extends AnyFunSuite:
 
-  test("an error is known from four samples on, also that of a complete film"):
+  test("an error is known from eight samples on, also that of a complete film"):
     TempFolder.use: folder =>
-      for samples <- Vector(2, 3, 4) do
+      for samples <- Vector(2, 7, 8) do
         val control = RenderControl().withThreads(1).withErrorEstimates
           .withFilm(folder.resolve(s"$samples.film"))
         def known() =
@@ -18,4 +18,4 @@ final class RenderResultSuite extends AnyFunSuite:
           val result = Using.resource(scene.prepare(RenderSettings(), 1))(_.render(control))
           assert(result.samplesPerPixel == samples)
           result.error.isPresent
-        assert(known() == (samples >= 4) && known() == (samples >= 4), samples)
+        assert(known() == (samples >= 8) && known() == (samples >= 8), samples)

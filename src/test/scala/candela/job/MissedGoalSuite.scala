@@ -31,6 +31,6 @@ class MissedGoalSuite extends AnyFunSuite:
     val few = GoalRule(RenderGoal(error = Some(0.9)), 2, ErrorRecorder(Development(), None))
     val fewSamples = TinyPlan(width = 4, height = 3, spp = 2)((_, s) => Rgb.gray(s.next1D()))
     val known = MissedGoal.problem(few, Renderer.render(fewSamples, RenderControl(1, rule = few)))
-    assert(known.get.message.startsWith("an error is known from 4 samples per pixel on: all 2 "))
+    assert(known.get.message.startsWith("an error is known from 8 samples per pixel on: all 2 "))
     assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
     assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)

@@ -43,7 +43,7 @@ class HalfScatterSuite extends AnyFunSuite:
       val result = ratio(IndependentSampler(n, 5), n, smoothMean)(_ => smooth)
       assert(Math.abs(result - 1) < 0.15, s"$n samples")
 
-  test("that of low-discrepancy points is less than their halves differ"):
+  test("that of low-discrepancy points is at most as high as their halves differ"):
     // An edge through each pixel, and light of many dimensions
     for seed <- 1 to 4; n <- Vector(16, 64) do
       val random = Random(seed)
@@ -53,8 +53,8 @@ class HalfScatterSuite extends AnyFunSuite:
         val edge = edges(pixel) + (if s.x + s.y / 2 > edges(pixel) then 2 else 1)
         edge + (0 until 8).map(_ => s.next1D()).map(0.5 + _).product / 16
       val result = ratio(OwenSobolSampler(64, seed), n, 2.25 + 1.0 / 16)(light)
-      // The halves alone give twice the squared error
-      assert(result > 0.5 && result < 1.2, s"seed $seed, $n: $result")
+      // Variance falls as 1 / n to 1 / n²
+      assert(result > 0.33 && result < 1.15, s"seed $seed, $n: $result")
 
   test("a bright path that is rare does not hide its own error"):
     // One of 200 pixels has a firefly of 300: relative to itself its error would be 1

@@ -91,6 +91,27 @@ class MitsubaFilesSuite extends AnyFunSuite:
     assert(messages.exists(_.startsWith("`toWorld` of shape \"sphere\" must be")), messages)
     assert(messages.exists(_.startsWith("`rrDepth` must be at least 1")), messages)
 
+  test("attributes that an element has not are told of, and rotations without an axis"):
+    def problems(step: String, version: String = "3.0.0") =
+      val scene = read(
+        s"""<scene version="$version"><sensor type="perspective"><transform name="to_world">$step
+          </transform></sensor><integrator type="path"/></scene>"""
+      )
+      (scene.errors ++ scene.warnings).map(p => p.message + p.help.fold("")(": " + _))
+    def isTold(step: String, message: String) =
+      assert(problems(step).exists(_.startsWith(message)), problems(step))
+    isTold(
+      "<translate vaule=\"1 2 3\"/>",
+      "`vaule` is not an attribute of <translate>; it is ignored: did you mean `value`?"
+    )
+    isTold(
+      "<scale value=\"2\" x=\"3\"/>",
+      "`x` is not an attribute of <scale>; it has no effect beside `value`"
+    )
+    isTold("<rotate angle=\"60\"/>", "a rotation needs an axis")
+    assert(problems("<translate x=\"1\"/><rotate value=\"0 1 0\" angle=\"3\"/>").isEmpty)
+    assert(!problems("<translate vaule=\"1\"/>", "0.6.0").exists(_.contains("vaule")))
+
   test("a file without a version is of 0.6 if a transform has its name"):
     for name <- Vector("toWorld", "to_world") do
       val scene = read(

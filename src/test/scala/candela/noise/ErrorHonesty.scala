@@ -4,6 +4,7 @@ import candela.cli.rendering.RenderRecorder
 import candela.film.{Development, Film}
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
+import candela.integrators.CausticsMode
 import candela.measure.{ErrorEstimate, Interval, Metrics}
 import candela.render.{Looks, Pass, RenderControl, RenderListener, Renderer}
 import candela.settings.{PointChoice, RenderSettings}
@@ -19,48 +20,38 @@ import java.nio.file.{Files, Path}
   */
 object ErrorHonesty:
   private val Scenes =
-    Vector("door-ajar.v4", "prism.v4", "wine-glass.v4").map(s => s"bench/scenes/$s.pbrt") ++
-      Vector(
-        "showcase",
-        "v3-disney",
-        "v3-fog",
-        "v3-textures",
-        "v4-bdpt",
-        "v4-caustics-glass",
-        "v4-depth-of-field",
-        "v4-dispersion",
-        "v4-lights",
-        "v4-measured",
-        "v4-media-cloud",
-        "v4-motion",
-        "v4-panorama",
-        "v4-picture-lights",
-        "v4-realistic",
-        "v4-spectral",
-        "v4-subsurface",
-        "v4-textures"
-      ).map(s => s"scenes/$s.pbrt")
+    val own = "door-ajar prism wine-glass".split(' ').map(s => s"bench/scenes/$s.v4.pbrt")
+    val rest =
+      "showcase v2-instances v2-materials v2-point-lights v2-subsurface v2-textures v2-volumes " +
+        "v3-alpha v3-bdpt-caustic v3-blends v3-bump v3-disney v3-environment-map v3-fog " +
+        "v3-glass v3-glossy v3-instances v3-lights v3-media v3-metal-mirror v3-motion " +
+        "v3-subsurface v3-textures v4-bdpt v4-bdpt-media v4-caustics-glass v4-caustics-mist " +
+        "v4-caustics-pool v4-caustics-ring v4-coated-diffuse v4-depth-of-field v4-dispersion " +
+        "v4-lights v4-measured v4-media-cloud v4-motion v4-panorama v4-picture-lights " +
+        "v4-realistic v4-spectral v4-subsurface v4-textures"
+    own.toVector ++ rest.split(' ').map(s => s"scenes/$s.pbrt")
 
   def main(args: Array[String]): Unit =
     val options = args.grouped(2).collect { case Array(k, v) => k.drop(2) -> v }.toMap
     def list(name: String, default: String) = options.getOrElse(name, default).split(',').toVector
     def number(name: String, default: Int) = options.get(name).fold(default)(_.toInt)
-    val samples = list("samples", "4,8,16,32,64").map(_.toInt)
+    val samples = list("samples", "8,16,32,64").map(_.toInt)
     val (width, threads) = (number("width", 48), number("threads", 2))
     println("| scene | samples | true error | true / estimate: median, 10 %, 90 % |")
     println("|---|---|---|---|")
     val all =
       for file <- list("scenes", Scenes.mkString(",")) yield
         val scene = SmallScene(file, width)
-        def plan(spp: Int, seed: Int) =
+        def plan(spp: Int, seed: Int, caustics: CausticsMode = CausticsMode.Off) =
           scene.plan(RenderSettings(
             samples = Some(spp),
             seed = seed,
             points = Some(PointChoice.Progressive),
-            guiding = options.get("guiding").map(g => GuidingMode.valueOf(g.capitalize))
+            guiding = options.get("guiding").map(g => GuidingMode.valueOf(g.capitalize)),
+            caustics = Some(caustics)
           ))
         def rendered(): Image =
-          val long = plan(number("truth", 2048), 12345)
+          val long = plan(number("truth", 2048), 12345, CausticsMode.Auto)
           Renderer.render(long, RenderControl(threads)).image(long.development)
         val stored = options.get("folder").map: folder =>
           Path.of(folder, s"${NoiseScenes.name(file)}-$width.pfm".replace('/', '-'))
