@@ -355,6 +355,29 @@ class InMemory(unittest.TestCase):
             with self.assertRaisesRegex(candela.SceneError, f"{key}.*found.* {found}"):
                 values[key] = wrong
 
+    def test_albedos_of_a_volume_are_interpolated_by_themselves(self):
+        step = np.zeros((2, 2, 2))
+        step[..., 1] = 1
+        scene = mitsuba()
+        del scene["red"], scene["ball"]
+        scene["sky"] = {"type": "constant"}
+        scene["integrator"] = {"type": "volpath", "max_depth": 8}
+        view = Transform().look_at(origin=[1, 2, 5], target=[0, 0, 0], up=[0, 1, 0])
+        scene["sensor"].update(fov=40, to_world=view)
+        scene["sensor"]["film"].update(width=24, height=24)
+        for albedo, expected in ((step, 0.918), (1 - step, 0.8194)):  # Mitsuba 3.9.1's
+            volume = {"type": "heterogeneous", "scale": 3.0}
+            for name, data in (("sigma_t", step), ("albedo", albedo)):
+                volume[name] = {"type": "gridvolume", "data": data, "to_world": UNIT_CUBE}
+            scene["fog"] = {"type": "cube", "bsdf": {"type": "null"}, "interior": volume}
+            # The noise of 128 samples
+            mean = candela.render(scene, spp=128).rgb.mean()
+            self.assertAlmostEqual(mean, expected, delta=0.004)
+        volume["sigma_t"]["data"], volume["albedo"]["data"] = step - 0.5, step * 3
+        texts = [p.text for p in candela.check(scene)]
+        self.assertTrue(any("at least 0, found -0.5" in text for text in texts), texts)
+        self.assertTrue(any("at most 1, found 3" in text for text in texts), texts)
+
     def test_an_object_with_an_id_is_found_by_its_key_too(self):
         scene = mitsuba()
         plain = candela.render(scene, spp=4).rgb
@@ -1306,6 +1329,9 @@ class Images(unittest.TestCase):
                     np.testing.assert_array_equal(again.rgb, array[..., :3].astype("f4"))
                     self.assertEqual(again.alpha is None, values.shape[2] == 3)
         self.assertEqual(image.shape, (5, 3, 3))
+        self.assertTrue((image == candela.Image(array)).all() and not (image != image.rgb).any())
+        self.assertTrue((image > -1).all() and not (image < 0).any())
+        np.testing.assert_allclose(-image + image**2, image.rgb * (image.rgb - 1), atol=1e-6)
         np.testing.assert_array_equal(image[1:, :, 0], image.rgb[1:, :, 0])
         np.testing.assert_array_equal(image - image, np.zeros((5, 3, 3)))
         image.rgb = 2 * image.rgb

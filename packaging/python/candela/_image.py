@@ -138,7 +138,26 @@ class Image:
     def __rtruediv__(self, other: Any) -> Any:
         return other / np.asarray(self)
 
-    __radd__, __rmul__ = __add__, __mul__
+    def __pow__(self, other: Any) -> Any:
+        return np.asarray(self) ** other
+
+    def __neg__(self) -> Any:
+        return -np.asarray(self)
+
+    def __eq__(self, other: Any) -> Any:
+        """Of each value, as NumPy's; so are the others."""
+        return np.asarray(self) == other
+
+    def __ne__(self, other: Any) -> Any:
+        return np.asarray(self) != other
+
+    def __lt__(self, other: Any) -> Any:
+        return np.asarray(self) < other
+
+    def __gt__(self, other: Any) -> Any:
+        return np.asarray(self) > other
+
+    __radd__, __rmul__, __hash__ = __add__, __mul__, object.__hash__
 
     def mean(self, *axis: Any, **options: Any) -> Any:
         """Of ``rgb``, as NumPy's."""

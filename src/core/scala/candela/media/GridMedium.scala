@@ -46,10 +46,33 @@ final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid
     val mg = g.majorant(x0, y0, z0, x1, y1, z1)
     Math.max(Math.max(mr, mg), b.majorant(x0, y0, z0, x1, y1, z1))
 
+/** The scattered part of the extinction, interpolated by itself.
+  *
+  * @param fromMedium leads from the medium's unit cube to that of the grid
+  */
+final class AlbedoGrid(albedo: ColorGrid, fromMedium: Transform):
+  private val m = fromMedium.m.map(_.toFloat)
+
+  /** Parts the extinction at a point of the medium's unit cube anew. */
+  private[media] def part(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+    val u = m(0) * x + m(1) * y + m(2) * z + m(3)
+    val v = m(4) * x + m(5) * y + m(6) * z + m(7)
+    val w = m(8) * x + m(9) * y + m(10) * z + m(11)
+    val r = out.absorbR + out.scatterR
+    val g = out.absorbG + out.scatterG
+    val b = out.absorbB + out.scatterB
+    out.scatterR = r * albedo.r(u, v, w)
+    out.scatterG = g * albedo.g(u, v, w)
+    out.scatterB = b * albedo.b(u, v, w)
+    out.absorbR = r - out.scatterR
+    out.absorbG = g - out.scatterG
+    out.absorbB = b - out.scatterB
+
 /** A medium with grids of coefficients; a coefficient without a grid is constant in the box.
   *
   * @param constant absorption or scattering without a grid
   * @param factor   scale of all coefficients
+  * @param albedo   parts their sums, if it is given
   */
 final class ColorGridMedium(
     toUnit: Transform,
@@ -59,7 +82,8 @@ final class ColorGridMedium(
     constant: Float,
     factor: Float,
     glow: Option[ColorGrid],
-    val phase: PhaseFunction
+    val phase: PhaseFunction,
+    albedo: Option[AlbedoGrid] = None
 ) extends VaryingMedium(
       toUnit,
       ColorGridMedium.bounds(size, absorption, scattering, constant, factor),
@@ -68,6 +92,7 @@ final class ColorGridMedium(
   private val absorbing: ColorGrid | Null = absorption.orNull
   private val scatters: ColorGrid | Null = scattering.orNull
   private val glowing: ColorGrid | Null = glow.orNull
+  private val shares: AlbedoGrid | Null = albedo.orNull
   private val plain = constant * factor
   def isEmissive: Boolean = glow.isDefined
   def isChromatic: Boolean = true
@@ -84,6 +109,8 @@ final class ColorGridMedium(
     out.scatterR = if s == null then plain else factor * s.r(x, y, z)
     out.scatterG = if s == null then plain else factor * s.g(x, y, z)
     out.scatterB = if s == null then plain else factor * s.b(x, y, z)
+    val split = shares
+    if split != null then split.part(x, y, z, out)
     val light = glowing
     if light != null then
       out.glowR = light.r(x, y, z)

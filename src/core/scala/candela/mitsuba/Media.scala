@@ -155,9 +155,9 @@ final class Media(session: Session, colors: Colors):
       scale: Float
   ): Option[MediumDescription] =
     for
-      sigmaT <- volumes(volume)
+      sigmaT <- volumes(Float.PositiveInfinity)(volume)
       albedo <- albedoGrid(in) match
-        case Some(v) => session.translate(v)(volumes(_)).map(Left(_))
+        case Some(v) => session.translate(v)(volumes(1f)).map(Left(_))
         case None => Some(Right(fixed(in, "albedo", 0.75f)))
     yield
       val file = sigmaT.file
@@ -167,7 +167,8 @@ final class Media(session: Session, colors: Colors):
           val density = Param.floats(ParamType.Float, "density", position, file.values)
           ("uniformgrid", coefficients(in, Rgb.White - a, a, phase, scale) :+ density)
         case _ =>
-          ("rgbgrid", cells(in, sigmaT.parted(albedo), position, phase, scale))
+          val shares = albedo.left.toSeq.flatMap(sigmaT.albedoParams(_, phase.scattered, position))
+          ("rgbgrid", cells(in, sigmaT.parted(albedo), position, phase, scale) ++ shares)
       // Beyond a turned grid, Mitsuba goes on to the box along the world's axes
       val fills = Option.when(sigmaT.isTurned)(Param.bool("fillsworldbox", position, true))
       placed(in, kind, params ++ fills, sigmaT, position)
@@ -179,7 +180,7 @@ final class Media(session: Session, colors: Colors):
       phase: Phase,
       scale: Float
   ): Option[MediumDescription] =
-    session.translate(v)(volumes(_)).map: albedo =>
+    session.translate(v)(volumes(1f)).map: albedo =>
       session.warn(Code.CorrectedValue, v.pos, "the medium ends at the box of its albedos")
       val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
       placed(in, "rgbgrid", cells(in, parted, v.pos, phase, scale), albedo, v.pos)

@@ -245,7 +245,7 @@ final class Textures(session: Session, colors: Colors):
           s"${in.plugin.description} must have a `volume` of type \"gridvolume\""
         )
         None
-      grid <- session.translate(v)(volumes(_))
+      grid <- session.translate(v)(volumes(Float.PositiveInfinity))
     yield
       val values = if valueType == "float" then grid.numbers else grid.colors
       val params = grid.params(v.pos) :+ Param.floats(ParamType.Float, "values", v.pos, values)

@@ -10,13 +10,15 @@ import java.nio.ByteOrder
   *
   * @param size   cells along x, y and z
   * @param bounds least and greatest corner
-  * @param values channels of a cell are adjacent, then x varies fastest
+  * @param values channels of a cell are adjacent, then x varies fastest; at least 0
+  * @param lowest of the file's values
   */
 private[mitsuba] final class VolumeFile(
     val size: Array[Int],
     val channels: Int,
     val bounds: Array[Float],
-    val values: Array[Float]
+    val values: Array[Float],
+    val lowest: Float
 )
 
 /** Reads Mitsuba's `.vol` files. */
@@ -54,7 +56,9 @@ private[mitsuba] object VolumeFile:
     val values = new Array[Float](cells.toInt * channels)
     if encoding == Bytes then loop(values.length)(i => values(i) = (input.get() & 0xff) / 255f)
     else input.asFloatBuffer.get(values)
+    var lowest = 0f
     loop(values.length): i =>
       if !(values(i) <= MaxValue) then fail(s"its value ${values(i)} is damaged")
+      lowest = Math.min(lowest, values(i))
       values(i) = Math.max(0f, values(i))
-    VolumeFile(size, channels, bounds, values)
+    VolumeFile(size, channels, bounds, values, lowest)

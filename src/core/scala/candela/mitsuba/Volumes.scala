@@ -9,7 +9,8 @@ import candela.scenefile.{Param, ParamType}
 /** Reads `gridvolume`s. */
 private[mitsuba] final class Volumes(session: Session):
 
-  def apply(in: Properties): Option[PlacedGrid] =
+  /** @param limit of its values */
+  def apply(limit: Float)(in: Properties): Option[PlacedGrid] =
     in.ignore("raw", "accel", "send_data")
     if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
       session.warn(
@@ -35,11 +36,23 @@ private[mitsuba] final class Volumes(session: Session):
       path <- session.file(name, in.posOf("filename"), "skipped")
       file <- session.attempt(VolumeFile.read(path, in.posOf("filename")))
     yield
+      val highest = file.values.max
+      if file.lowest < 0f then corrected(in, file.lowest, "at least 0")
+      if highest > limit then
+        corrected(in, highest, s"at most ${limit.toInt}")
+        loop(file.values.length)(i => file.values(i) = Math.min(limit, file.values(i)))
       val box =
         if in.plugin.isOld then beyond(stated.getOrElse(file.bounds), file.size)
         else if usesBox then file.bounds
         else Array(0f, 0f, 0f, 1f, 1f, 1f)
       PlacedGrid(file, toWorld, box)
+
+  private def corrected(in: Properties, extreme: Float, range: String): Unit =
+    session.warn(
+      Code.CorrectedValue,
+      in.pos,
+      s"values of this volume must be $range, found $extreme; using the nearest that is"
+    )
 
   /** The box of cells whose centres reach the border of another one, where Mitsuba 0.6 has the
     * outermost values.
@@ -98,6 +111,22 @@ private[mitsuba] final class PlacedGrid(
             to(3 * cell + 1) = Math.max(0f, c.g)
             to(3 * cell + 2) = Math.max(0f, c.b)
     (absorbed, scattered)
+
+  /** The grid of albedos of this grid of extinction. */
+  def albedoParams(albedo: PlacedGrid, share: Float, at: SourcePos): Seq[Param] =
+    val matrix = for own <- ofUnit; target <- albedo.ofUnit yield target.inverse * own
+    matrix.toSeq.flatMap: t =>
+      Seq(
+        Param.floats(ParamType.Rgb, "albedo", at, albedo.colors.map(_ * share)),
+        Param(ParamType.Integer, "albedosize", at, at, ints = albedo.file.size),
+        Param.floats(ParamType.Float, "albedoplace", at, Array.tabulate(16)(i => t.m(i).toFloat))
+      )
+
+  /** From the unit cube. */
+  private def ofUnit: Option[Transform] =
+    val sides = (0 until 3).map(i => (box(i + 3) - box(i)).toDouble)
+    Transform.scale(sides(0), sides(1), sides(2)).map: size =>
+      toWorld * Transform.translate(box(0), box(1), box(2)) * size
 
   /** Of each cell: its colour, three numbers. */
   def colors: Array[Float] =

@@ -55,7 +55,11 @@ object FromMitsuba:
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
-        phased(withoutParams(d, "the medium ends at its grid", "fillsworldbox"))
+        val ended = withoutParams(d, "the medium ends at its grid", "fillsworldbox")
+        val product = "pbrt interpolates the product of extinction and albedo, Mitsuba both"
+        phased(
+          withoutParams(withoutParams(ended, product, "albedo"), "", "albedosize", "albedoplace")
+        )
       else if d.category != "Material" then d
       else
         for p <- d.param("normalmapuv") do

@@ -104,6 +104,30 @@ final class MediumSuite extends AnyFunSuite:
     val colors = (Rgb(0.4f, 1f, 2f), Rgb(1.4f, 1f, 0.2f))
     check(medium, (Vec3(-0.5f, 0f, 0f), Vec3(0.5f, 0f, 0f)), colors, Rgb(1f, 2f, 0.5f))(_ => 1)
 
+  test("a grid of albedos parts the extinction, not its product at the cells"):
+    def step(low: Float, high: Float) =
+      val channel = SampledGrid(2, 1, 1, Array(low, high), GridEdge.Clamped)
+      ColorGrid(channel, channel, channel)
+    def medium(place: Transform) = ColorGridMedium(
+      toUnit,
+      step(0f, 1f).r,
+      Some(step(0f, 1f)),
+      Some(step(0f, 3f)),
+      1f,
+      factor = 2f,
+      None,
+      isotropic,
+      Some(AlbedoGrid(step(1f, 0.5f), place))
+    )
+    def parts(place: Transform, x: Float) =
+      val out = MediumPoint()
+      medium(place).coefficients(x, 0.5f, 0.5f, out)
+      (out.absorbG, out.scatterG)
+    // Extinctions of 0 and 8, albedos of 1 and 0.5 at 1/4 and 3/4
+    assert(parts(Transform.Identity, 0.5f) == (1f, 3f))
+    assert(parts(Transform.Identity, 0.625f) == (2.25f, 3.75f))
+    assert(parts(Transform.translate(-0.5, 0, 0), 0.75f) == (0f, 8f))
+
   test("a cloud lets through what its density says", Slow):
     val (low, size) = (Vec3(-0.5f, 0f, -0.5f), Vec3(1f, 1f, 1f))
     val map = Transform.translate(0.5, 0, 0.5)

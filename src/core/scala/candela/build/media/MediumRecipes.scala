@@ -4,7 +4,7 @@ import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
-import candela.math.Vec3
+import candela.math.{Transform, Vec3}
 import candela.media.*
 
 object HomogeneousRecipe
@@ -108,6 +108,7 @@ object RgbGridRecipe
     extends MediumRecipe("rgbgrid", "grid of RGB coefficients", onlyV4)
     with HasGrid
     with FillsBox:
+  private val Shares = Range(0f, 1f).limited
   private val sigmaA =
     numbers(
       "sigma_a",
@@ -131,6 +132,11 @@ object RgbGridRecipe
   private val scale = float("scale", "factor of the coefficients", range = Coefficients)(1f)
   private val emittedScale =
     float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
+  private val albedo =
+    numbers("albedo", "rgb[]", "scattered part, by a grid of its own", onlyMitsuba, range = Shares)
+  private val albedoSize = integers("albedosize", "its cells along x, y and z", onlyMitsuba)
+  private val albedoPlace =
+    numbers("albedoplace", "float[]", "matrix from this grid's unit cube to its", onlyMitsuba)
 
   protected def create()(using site: Site): Option[Medium] =
     val (a, s, le) = (
@@ -166,8 +172,19 @@ object RgbGridRecipe
           constant = 1f,
           scale(),
           glow,
-          phase()
+          phase(),
+          shares()
         )
+
+  private def shares()(using site: Site): Option[AlbedoGrid] =
+    val values = colors(albedo(), SpectrumRole.Reflectance)
+    val rows = albedoPlace().map(_.toDouble).toVector
+    for place <- Option.when(values.nonEmpty)(rows).flatMap(Transform.fromRows) yield
+      val Array(nx, ny, nz) = albedoSize(): @unchecked
+      val Vector(r, g, b) = Vector.tabulate(3): c =>
+        val channel = Array.tabulate(values.length / 3)(i => values(3 * i + c))
+        SampledGrid(nx, ny, nz, channel, site.rules.gridEdge)
+      AlbedoGrid(ColorGrid(r, g, b), place)
 
   private def colors(values: Array[Float], role: SpectrumRole)(using site: Site): Array[Float] =
     values.grouped(3).flatMap { v =>
