@@ -50,7 +50,9 @@ final class RenderControl private (
       Problems.fail(Code.OptionValue, message)
     copy(film = Some(file))
 
-  /** Sets how often the film file is written; it is also written at the end. */
+  /** Sets how often the file of [[withFilm]] is written, which is also written at the end; without
+    * it, nothing is.
+    */
   def withFilmInterval(time: Duration): RenderControl =
     copy(every = Some(Times.positive("the interval", time)))
 

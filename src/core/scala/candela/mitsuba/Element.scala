@@ -118,7 +118,15 @@ object XmlFile:
       "the text is not of its encoding, which is UTF-8 unless the file declares another"
     case _ =>
       val description = Option(e.getMessage).getOrElse(e.toString)
-      description.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
+      description.split(
+        "Message: ",
+        2
+      ).last.linesIterator.nextOption.getOrElse("unreadable").trim match
+        case Repeated(element, name) => s"<$element> has the attribute `$name` twice"
+        case text => text
+
+  /** What the JDK's parser says, without a text of its own. */
+  private val Repeated = raw".*#AttributeNotUnique\?(.*)&(.*)".r
 
   /** More than any scene has; fewer than a stack has room for. */
   private val MaxDepth = 100

@@ -111,6 +111,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
         val error = intercept[SceneError](MitsubaScene.readable(bomb, Map.empty, false))
         assert(error.problems.head.message.contains("entity"), error.problems.head)
     assert(fatal("<shape>").startsWith("malformed XML"))
+    assert(fatal("<a x=\"1\" x=\"2\"/>") == "malformed XML: <a> has the attribute `x` twice")
 
   test("XML has the encoding that it declares; text of another is reported, and nothing printed"):
     val folder = Files.createTempDirectory("candela-xml")
