@@ -378,6 +378,18 @@ class InMemory(unittest.TestCase):
         self.assertTrue(any("at least 0, found -0.5" in text for text in texts), texts)
         self.assertTrue(any("at most 1, found 3" in text for text in texts), texts)
 
+    def test_a_value_of_a_define_is_set_back(self):
+        text = XML.replace('value="24"', 'value="$w"', 1)
+        self.assertNotEqual(text, XML)
+        scene = candela.load_string(text)
+        values = scene.parameters()
+        before = dict(values)
+        self.assertEqual(before["sensor.film.width"], "$w")
+        values["sensor.film.width"] = 8
+        self.assertEqual(scene.render(spp=1).shape[1], 8)
+        values.update(before)
+        self.assertEqual(scene.render(spp=1, define={"w": 12}).shape[1], 12)
+
     def test_an_object_with_an_id_is_found_by_its_key_too(self):
         scene = mitsuba()
         plain = candela.render(scene, spp=4).rgb
@@ -616,13 +628,12 @@ class InMemory(unittest.TestCase):
             for name in names:
                 with self.assertRaises(candela.SceneError) as rendered:
                     candela.render(name)
-                for load in (candela.load_file, candela.traverse):
-                    with self.assertRaises(candela.SceneError, msg=name) as loaded:
-                        load(name)
-                    self.assertEqual(str(loaded.exception), str(rendered.exception))
+                with self.assertRaises(candela.SceneError, msg=name) as loaded:
+                    candela.load_file(name)
+                self.assertEqual(str(loaded.exception), str(rendered.exception))
             self.assertNotIsInstance(rendered.exception, FileNotFoundError)  # it is a folder
             self.assertEqual(rendered.exception.file, str(names[4]))
-        for call in (candela.render, candela.check, candela.load_file, candela.traverse):
+        for call in (candela.render, candela.check, candela.load_file):
             for text in (SCENE, XML, "<scene/>"):
                 with self.assertRaisesRegex(candela.UsageError, "candela.load_string reads it"):
                     call(text)
@@ -1134,7 +1145,10 @@ class Kept(unittest.TestCase):
         scene["ball"]["center"] = [0, 0, 1]
         scene["lamp"] = {"type": "point", "intensity": {"type": "spectrum", "value": 2.0}}
         scene["sensor"]["fov"], scene["sky"]["radiance"] = 40, 1
-        values = candela.traverse(scene)  # as render takes it
+        for lost in (scene, "scene.xml"):
+            with self.assertRaisesRegex(candela.UsageError, "its changes would be lost"):
+                candela.traverse(lost)
+        values = candela.load_dict(scene).parameters()
         before, nan = dict(values), float("nan")
         color, light = "red.reflectance.value", "lamp.intensity.value"
         for key, value, message in (
@@ -1317,6 +1331,17 @@ class Images(unittest.TestCase):
             for save in (image.save, lambda file: candela.render(mitsuba(), spp=1, outfile=file)):
                 with self.assertRaisesRegex(candela.UsageError, "x.tiff"):
                     save(Path(folder) / "x.tiff")
+
+    def test_names_may_begin_with_a_dash(self):
+        image, folder = candela.Image(np.ones((2, 3, 3))), os.getcwd()
+        with tempfile.TemporaryDirectory(prefix="candela test ") as other:
+            os.chdir(other)
+            try:
+                for name in ("-x.exr", "--help.png", "-x.npz"):
+                    image.save(name)
+                    self.assertEqual(candela.load(name).shape, (2, 3, 3))
+            finally:
+                os.chdir(folder)
 
     def test_images_are_made_of_arrays_and_are_arrays(self):
         array = np.linspace(0, 1, 60).reshape(5, 3, 4)

@@ -169,7 +169,7 @@ class Image:
         """
         from ._session import execute
 
-        target = os.fspath(path)
+        target = _word(path)
         if target.lower().endswith(".npz"):
             try:
                 _write_npz(self, target)
@@ -277,11 +277,17 @@ def _joined(image: Image, names: List[str]) -> Any:
     return memoryview(values).cast("B").cast("f", shape=shape)
 
 
+def _word(path: PathLike) -> str:
+    """The name of a file, which is no option."""
+    name = os.fspath(path)
+    return os.path.join(".", name) if name.startswith("-") else name
+
+
 def load(path: PathLike) -> Image:
     """Reads an image file: ``.npz`` and all that ``candela image`` reads, such as ``.exr``; or the
     image of a film, ``.film``.
     """
-    source = os.fspath(path)
+    source = _word(path)
     if not os.path.exists(source):
         raise missing(source)
     if not source.lower().endswith(".npz"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import MutableMapping
 from typing import Any, Callable, Dict, Iterator, List, Set, Tuple
@@ -97,6 +98,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         faults: List[Problem] = []
         if isinstance(old, FileElement) and old.is_array:
             new = array_of(parent.get("type", ""), value, key, faults, is_raw(parent))
+        elif isinstance(value, str) and _DEFINE.fullmatch(value) and "value" in old.attrib:
+            new = ET.Element(old.tag, old.attrib, value=value)
         else:
             new = element_of(old.get("name", ""), _like(old, value, key), key, faults)
         is_count = old.tag in _NUMBERS and parent.tag not in _COLORED
@@ -149,6 +152,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         lines = [f"  {key!r}: {text}" for key, text in texts.items()]
         return "\n".join(["candela.Parameters:", *lines])
 
+
+_DEFINE = re.compile(r"\$\w+")  # given where the scene is rendered
 
 _SUFFIXED = {"rgb", "spectrum"}  # as Mitsuba's, `.value`
 

@@ -265,7 +265,7 @@ def scene_of(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
     return Scene(name, None)
 
 
-def traverse(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Parameters:
+def traverse(scene: Scene) -> Parameters:
     """The values of a scene by their names, as Mitsuba's ``traverse`` has them: what its text or
     dict says, without defaults.
 
@@ -273,5 +273,7 @@ def traverse(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Parameters:
     >>> values["light.intensity.value"] = [1, 2, 3]
     >>> values["ball.to_world"] = candela.Transform().translate([0, 1, 0])
     """
-    loaded = scene_of(scene) if isinstance(scene, (Scene, dict)) else load_file(scene)
-    return loaded.parameters()
+    if not isinstance(scene, Scene):
+        load = "load_dict" if isinstance(scene, dict) else "load_file"
+        raise UsageError(f"its changes would be lost: traverse a scene of candela.{load}(…)")
+    return scene.parameters()

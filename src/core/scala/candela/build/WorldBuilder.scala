@@ -343,7 +343,8 @@ private[build] final class WorldBuilder(
         problems.warn(Code.UnlikePbrt, lamp.shape.pos, message)
 
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
-    if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then
+    val isTold = description.warnings.exists(_.code == Code.DarkScene)
+    if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors && !isTold then
       val message = "the scene has no light; its image will be black"
       problems.warn(Code.DarkScene, description.camera.map(_.pos), message)
     if !integrator.samplesLights && scene.lights.exists(_.isDelta) then

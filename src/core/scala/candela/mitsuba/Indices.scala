@@ -108,7 +108,12 @@ object Indices:
             1.5
           }
         )
-      case Some(_) => in.number(name, dielectrics(default))
+      case Some(_) =>
+        val number = in.number(name, dielectrics(default))
+        if number <= 0 then
+          val message = s"`$name` must be above 0, found $number"
+          in.session.error(Code.ParameterValue, in.posOf(name), message)
+        number
       case None => dielectrics(default)
 
   /** Index of the inside relative to the outside. */

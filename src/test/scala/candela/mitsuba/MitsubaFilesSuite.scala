@@ -112,6 +112,15 @@ class MitsubaFilesSuite extends AnyFunSuite:
     assert(problems("<translate x=\"1\"/><rotate value=\"0 1 0\" angle=\"3\"/>").isEmpty)
     assert(!problems("<translate vaule=\"1\"/>", "0.6.0").exists(_.contains("vaule")))
 
+  test("indices of refraction are above 0"):
+    for name <- Vector("int_ior", "ext_ior"); value <- Vector("0", "-1.5") do
+      val scene = read(
+        s"""<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere">
+          <bsdf type="dielectric"><float name="$name" value="$value"/></bsdf></shape></scene>"""
+      )
+      val message = s"`$name` must be above 0, found ${value.toDouble}"
+      assert(scene.errors.map(_.message).contains(message), scene.errors)
+
   test("a file without a version is of 0.6 if a transform has its name"):
     for name <- Vector("toWorld", "to_world") do
       val scene = read(

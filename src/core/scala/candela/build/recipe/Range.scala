@@ -77,7 +77,7 @@ final case class Range(
       Option.unless(isOne)(p.mapped(x => if holds(x) then x else 0f))
     else
       if nearest(odd) == odd then
-        val warning = s"${message("should")}, which is used"
+        val warning = s"${message("should")}, which is not clamped"
         site.problems.warn(Code.ParameterValue, p.valuesAt, warning)
       else
         val instead = if isOne then DefaultText.number(nearest(odd)) else "the nearest that is"

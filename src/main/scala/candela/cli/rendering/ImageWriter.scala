@@ -40,7 +40,8 @@ private[cli] final class ImageWriter(
 
   /** Warns of an image that shows nothing. */
   def warnIfEmpty(rendering: Rendering, image: Image): Unit =
-    val isForeseen = prepared.warnings.exists(_.code == Code.EmptyView)
+    val isForeseen = prepared.warnings.exists(_.code == Code.EmptyView) ||
+      prepared.description.warnings.exists(_.code == Code.DarkScene)
     val isPicture = paths.nonEmpty &&
       paths.forall(OutputFormat.of(_).exists(_.contents == Contents.Display))
     val problem = EmptyImage.problem(prepared, rendering, image, isForeseen, isPicture)

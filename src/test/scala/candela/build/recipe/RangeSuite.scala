@@ -50,7 +50,7 @@ final class RangeSuite extends AnyFunSuite:
       Some(Seq(.5f, 1f)),
       Vector(warning + "the nearest that is")
     ))
-    val unclamped = "Warning: `x` should be from 0 to 1, found 2, which is used"
+    val unclamped = "Warning: `x` should be from 0 to 1, found 2, which is not clamped"
     assert(held(range.unclamped, 2f) == (Some(Seq(2f)), Vector(unclamped)))
     assert(held(range.deferred, 2f) == (Some(Seq(2f)), Vector()))
 

@@ -76,12 +76,12 @@ final class SpectraSuite extends AnyFunSuite:
     for role <- SpectrumRole.values do
       assert(messages("0 0.5 1", role).isEmpty)
       val range = if role == Reflectance then "from 0 to 1" else "at least 0"
-      val used = s"`I` should be $range, found -0.5, which is used"
+      val used = s"`I` should be $range, found -0.5, which is not clamped"
       assert(messages("1 -0.5 0", role) == Vector(used))
       for dialect <- Seq(Dialect.V2, Dialect.V3) do
         assert(messages("1 -0.5 2", role, dialect).isEmpty)
     for role <- Seq(Unbounded, Emission) do assert(messages("1 2 3", role).isEmpty)
-    val refused = "`I` should be from 0 to 1, found 2, which is used"
+    val refused = "`I` should be from 0 to 1, found 2, which is not clamped"
     assert(messages("1 2 3", Reflectance) == Vector(refused))
 
   test("wavelengths that do not ascend are sorted, and told of in v4, which refuses them"):
