@@ -15,6 +15,7 @@ import candela.render.{
 }
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
+import candela.scenefile.Dialect
 import candela.settings.{BuildControl, Choices, RenderSettings, SkyView}
 
 import java.util.Locale
@@ -61,7 +62,7 @@ private[build] final class ViewPlan(view: ViewSetup, world: World):
   def plan: RenderPlan =
     val effective = context.resources.settings
     // pbrt-v4 scales images by the shutter time
-    val exposure = if context.isV4 then camera.shutter.duration else 1f
+    val exposure = if context.rules.dialect == Dialect.V4 then camera.shutter.duration else 1f
     val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
     val bands = film.development.bands
       .filter(_ => world.color.isSpectral && method.hasWavelengths)

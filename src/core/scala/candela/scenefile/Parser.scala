@@ -106,36 +106,37 @@ object Parser:
       world: Int,
       defines: Defines
   ): SceneDescription =
-    val scene = attempt(source, folder, file, dialect, keepGoing, world, defines) match
+    // The scene; or how to read it again
+    def attempt(
+        source: Source,
+        dialect: Option[Dialect],
+        impliesWorld: Boolean
+    ): Either[(Dialect, Boolean), SceneDescription] =
+      val run = ParserRun(
+        source,
+        folder,
+        file,
+        dialect.getOrElse(Dialect.V3),
+        keepGoing,
+        world,
+        defines,
+        impliesWorld = impliesWorld
+      )
+      run.read()
+      val guess = dialect.getOrElse(run.guess)
+      // The few statements that v4 treats differently were parsed as v3's
+      val isOther = dialect.isEmpty && run.queriedDialect && guess == Dialect.V4
+      if isOther || run.forgetsWorld then Left((guess, run.forgetsWorld))
+      else Right(run.result(guess).copy(clues = run.clues))
+    val scene = attempt(source, dialect, impliesWorld = false) match
       case Right(scene) => scene
-      case Left(better) =>
+      case Left((guess, forgetsWorld)) =>
         val reopened = source.again.getOrElse:
           throw SceneError(Problem.general(
             Code.Unreadable,
             s"can't read `${source.name}` a second time"
           ))
         folder.allowance.readAgain()
-        attempt(
-          defines.substitute(reopened), folder, file, Some(better), keepGoing, world, defines
-        ).toOption.get
+        attempt(defines.substitute(reopened), Some(guess), forgetsWorld).toOption.get
     defines.requireUse()
     scene
-
-  /** The scene; or the dialect to parse it with again: the few statements that v4 treats
-    * differently were parsed as v3's.
-    */
-  private def attempt(
-      source: Source,
-      folder: SceneFolder,
-      file: Option[InputFile],
-      dialect: Option[Dialect],
-      keepGoing: Boolean,
-      world: Int,
-      defines: Defines
-  ): Either[Dialect, SceneDescription] =
-    val run =
-      ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing, world, defines)
-    run.read()
-    val guess = dialect.getOrElse(run.guess)
-    if dialect.isEmpty && run.queriedDialect && guess == Dialect.V4 then Left(guess)
-    else Right(run.result(guess).copy(clues = run.clues))

@@ -15,6 +15,7 @@ import scala.util.Try
   * @param world which of the file's worlds to read, from 0
   * @param defines values of `$NAME`
   * @param isHead whether to read what is before the world only
+  * @param impliesWorld whether a world that is never begun begins with its first statement
   * @param cameraOf the scene whose camera the file replaces, by [[CameraStatements]] alone
   */
 private[scenefile] final class ParserRun(
@@ -26,6 +27,7 @@ private[scenefile] final class ParserRun(
     world: Int,
     defines: Defines,
     isHead: Boolean = false,
+    impliesWorld: Boolean = false,
     cameraOf: Option[SceneDescription] = None
 ):
   import ParserRun.*
@@ -69,6 +71,11 @@ private[scenefile] final class ParserRun(
   /** The estimated dialect; valid after [[read]]. */
   def guess: Dialect = evidence.dialect
 
+  /** Whether the file is a whole scene but for its WorldBegin, which seems to be forgotten. */
+  def forgetsWorld: Boolean =
+    scene.worldBegin.isEmpty && directives.exists(_.section == Section.World) &&
+      directives.exists(_.section == Section.Options)
+
   /** The evidence for the guess. */
   def clues: Vector[DialectClue] = evidence.clues
 
@@ -110,8 +117,6 @@ private[scenefile] final class ParserRun(
   /** Checks possible only at the end of the file. */
   private def finish(dialect: Dialect): Unit =
     scene.worldBegin match
-      // Without its WorldBegin every statement is misplaced; the cause is already reported, or is
-      // this:
       case None if problems.errors == 0 =>
         val hint = "it is empty, or a file to Include"
         problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $hint"))
@@ -232,6 +237,8 @@ private[scenefile] final class ParserRun(
 
   /** Reports a statement on the wrong side of WorldBegin: an error in v4, ignored in v2 and v3. */
   private def isMisplaced(directive: Directive, at: SourcePos): Boolean =
+    if impliesWorld && directive.section == Section.World && scene.worldBegin.isEmpty then
+      beginMissingWorld(directive, at)
     val misplacement = directive.misplaced(scene.worldBegin)
     for message <- misplacement if !misplaced.isFull do
       misplaced.add(
@@ -239,6 +246,14 @@ private[scenefile] final class ParserRun(
         else Problem.warning(Code.WrongPlace, at, s"$message; ignored")
       )
     misplacement.nonEmpty
+
+  /** Reports a forgotten WorldBegin, unless an error before it may be the cause. */
+  private def beginMissingWorld(directive: Directive, at: SourcePos): Unit =
+    if problems.errors == 0 then
+      val message = s"${directive.name} must be after WorldBegin, and there is none"
+      val help = "write WorldBegin before this statement"
+      problems.add(Problem.error(Code.NoWorld, at, message, Some(help)))
+    scene.beginWorld(at)
 
   /** Reads the statements of another file, which `from` includes. */
   private def include(from: Tokenizer)(name: String, nameAt: SourcePos, at: SourcePos): Unit =

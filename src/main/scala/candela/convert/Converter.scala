@@ -51,7 +51,7 @@ object Converter:
     val translated =
       if isOfOthers then ofOthers(scene, to, files)
       else if from == Dialect.V2 && to != from then
-        Converted(FromV2.withIntegrator(scene), Vector.empty)
+        Converted(FromV2.prepared(scene), Vector.empty)
       else Converted(scene, Vector.empty)
     val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =

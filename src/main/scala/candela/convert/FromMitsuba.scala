@@ -28,7 +28,21 @@ object FromMitsuba:
       shapes = run.withoutHeightMaps(plain.shapes).map(EmittingShapes.unmirrored),
       objects = plain.objects.map((name, shapes) => name -> run.withoutHeightMaps(shapes))
     )
-    Converted(converted, run.warnings)
+    Converted(exposed(converted), run.warnings)
+
+  /** pbrt-v4 integrates over the time that the shutter is open, and has no instant. */
+  private def exposed(scene: SceneDescription): SceneDescription =
+    def time(name: String) =
+      scene.camera.flatMap(_.param(name)).flatMap(_.floats.headOption).getOrElse(0f)
+    val duration = time("shutterclose") - time("shutteropen")
+    if duration > 0f then
+      def iso(film: Declaration) = Param.float("iso", film.pos, 100f / duration)
+      scene.copy(film = scene.film.map(film => film.copy(params = film.params :+ iso(film))))
+    else
+      val isTime = Set("shutteropen", "shutterclose")
+      scene.copy(camera =
+        scene.camera.map(c => c.copy(params = c.params.filterNot(p => isTime(p.name))))
+      )
 
   private final class Run(named: Map[String, Declaration]) extends ForeignLosses:
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]

@@ -1,7 +1,7 @@
 package candela.convert
 
 import candela.diagnostics.Code
-import candela.scenefile.{Dialect, SceneDescription, ShapeDescription}
+import candela.scenefile.{Dialect, MaterialRef, Param, SceneDescription, ShapeDescription}
 
 /** Options, lights and shapes, from v2 to v3. */
 object FromV2:
@@ -85,15 +85,46 @@ object FromV2:
       "not count"
   )(s => s.addInteger("maxdepth", s.takeInteger("maxdepth", 5) + 1))
 
-  private def unbiased(names: String) =
+  private def ignored =
+    Step("all others", "ignored")(s => s.declaration.params.foreach(p => s.take(p.name)))
+
+  /** @param depth of its image */
+  private def traced(names: String, depth: String)(of: Statement => Int) =
     Rule.approximate(names -> "path", "the same image, estimated by path tracing")(
-      Step("all", "ignored")(s => s.declaration.params.foreach(p => s.take(p.name)))
+      Step(depth, "`maxdepth`")(s => s.addInteger("maxdepth", of(s))),
+      ignored
     )
 
-  /** The scene with the renderer "metropolis", which replaces the integrator, as one. */
-  def withIntegrator(scene: SceneDescription): SceneDescription =
-    scene.renderer.filter(_.name == "metropolis").fold(scene): d =>
+  private val oneBounce = Step("one bounce", "`maxdepth` 1")(_.addInteger("maxdepth", 1))
+
+  /** Light that materials let in and out, beside direct light. */
+  private val beneath = Step("`maxdepth`", "`maxdepth` plus one, of specular bounces"): s =>
+    s.addInteger("maxdepth", s.takeInteger("maxdepth", 5) + 1)
+    if s.run.materials.exists(m => Set("subsurface", "kdsubsurface")(m.name)) then
+      s.convertTo("path")
+      s.warn(
+        Code.Inexpressible,
+        s.declaration.pos,
+        "v3 has subsurface scattering in \"path\" alone, which adds indirect light between " +
+          "surfaces: the image may be brighter"
+      )
+
+  /** The scene with the renderer "metropolis", which replaces the integrator, as one; and with the
+    * one material that "glossyprt" gives to all surfaces.
+    */
+  def prepared(scene: SceneDescription): SceneDescription =
+    val unified = scene.renderer.filter(_.name == "metropolis").fold(scene): d =>
       scene.copy(renderer = None, integrator = Some(d.copy(category = "Integrator")))
+    unified.integrator.filter(_.name == "glossyprt").fold(unified): prt =>
+      val params = prt.params.filter(p => Set("Kd", "Ks", "roughness")(p.name)) ++
+        Option.unless(prt.param("Kd").isDefined)(Param.float("Kd", prt.pos, 0.5f))
+      val plastic =
+        MaterialRef.Inline(prt.copy(category = "Material", name = "plastic", params = params))
+      def repainted(shapes: Vector[ShapeDescription]) = shapes.map(_.copy(material = plastic))
+      unified.copy(
+        shapes = repainted(unified.shapes),
+        objects = unified.objects.map((name, shapes) => name -> repainted(shapes))
+      )
 
   // Where v3's defaults are others
   private val metropolis = Seq(
@@ -118,9 +149,20 @@ object FromV2:
       unsupported("maxdist", "unlimited distance")
     ),
     Rule("metropolis" -> "mlt")(metropolis*),
-    unbiased(
-      "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
-    )
+    traced("photonmap|exphotonmap", "`maxphotondepth`, `maxspeculardepth`")(s =>
+      Math.max(s.takeInteger("maxphotondepth", 5), s.takeInteger("maxspeculardepth", 5)) + 1
+    ),
+    // Paths to virtual lights have no limit
+    traced("igi", "any depth")(_ => 1000),
+    traced("irradiancecache", "`maxindirectdepth`")(_.takeInteger("maxindirectdepth", 3) + 1),
+    traced("useprobes", "depth 6")(_ => 6),
+    Rule("dipolesubsurface" -> "directlighting")(beneath, ignored),
+    Rule.approximate(
+      "diffuseprt" -> "directlighting",
+      "exact direct light, of the materials as they are; v2 sees what they reflect as diffuse light"
+    )(oneBounce, ignored),
+    // Its material is that of all surfaces: [[prepared]]
+    Rule.approximate("glossyprt" -> "directlighting", "exact direct light")(oneBounce, ignored)
   )
 
   private val lightSamples = Step("`nsamples`", "`samples`"): s =>

@@ -10,7 +10,20 @@ import java.util.Locale
 object ToV4View:
   import Steps.*
 
-  private val shutter = retain("shutteropen", "shutterclose")
+  /** When the shutter opens and closes by default. */
+  private val Times = Vector("shutteropen" -> 0f, "shutterclose" -> 1f)
+
+  /** Part of a unit of time, or of the time itself, in which a moment's image is taken. */
+  private val Instant = 1e-3f
+
+  /** v4's shutter closes after it opens. v2 and v3 swap its times, and also render an instant. */
+  private val shutter =
+    Step("`shutteropen`, `shutterclose`", "in order; an instant becomes a brief time"): s =>
+      val (open, close) = shutterTimes(s)
+      for ((name, default), time) <- Times.zip(Vector(open, close)) do
+        val p = s.take(name)
+        if p.nonEmpty || time != default then
+          s.addFloat(name, time)(using p.fold(s.declaration.pos)(_.pos))
   private val projective =
     retain("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
   private val planes = drop("hither", "yon")
@@ -54,13 +67,19 @@ object ToV4View:
       if isKnown then s.add("filename", p)
       else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.pos)
 
+  /** When v4's shutter opens and closes, for the camera of v2 or v3. */
+  private def shutterTimes(s: Statement): (Float, Float) =
+    def time(i: Int) =
+      val (name, default) = Times(i)
+      s.run.scene.camera.flatMap(_.param(name)).flatMap(s.numberOf).getOrElse(default)
+    val (open, close) = (time(0), time(1))
+    if open != close then (Math.min(open, close), Math.max(open, close))
+    else (open, open + Instant * Math.max(1f, Math.abs(open)))
+
   /** v4's film integrates over the exposure time; those of v2 and v3 don't. */
   private[convert] def shutterTime(s: Statement): Float =
-    def time(name: String, default: Float) =
-      val p = s.run.scene.camera.flatMap(_.param(name))
-      p.flatMap(_.floats.headOption).getOrElse(default)
-    val exposureTime = time("shutterclose", 1f) - time("shutteropen", 0f)
-    if exposureTime > 0f then exposureTime else 1f
+    val (open, close) = shutterTimes(s)
+    close - open
 
   private val films = Table("Film", fallback = "rgb")(
     Rule("image" -> "rgb")(
@@ -136,7 +155,7 @@ object ToV4View:
   /** v4 has no integrator that follows specular paths only. */
   private val direct = Step("`maxdepth`", "`maxdepth` 1, if no surface is specular"): s =>
     val depth = s.takeInteger("maxdepth", 5)
-    if smoothMaterials(s).isEmpty then s.addInteger("maxdepth", 1)
+    if depth <= 1 || smoothMaterials(s).isEmpty then s.addInteger("maxdepth", 1)
     else
       s.warn(
         Code.Inexpressible,

@@ -55,6 +55,17 @@ final class PbrtParametersSuite extends AnyFunSuite:
       beyond.toSet == cameras.toSet ++ forks + ((Dialect.V2, "sample", "visualizeobjectids"))
     )
 
+  test("no roughness is negative"):
+    val wrong =
+      for
+        category <- Language.categories if category.name == "Material"
+        recipe <- category.recipes.all
+        field <- recipe.fields if field.name.endsWith("roughness")
+        dialect <- recipe.dialects if field.dialects(dialect)
+        if field.typeName.startsWith("float") && field.range(dialect).least != 0f
+      yield s"$dialect: ${recipe.name}.${field.name}"
+    assert(wrong.isEmpty)
+
   test("the reader knows the names of v4's options, too"):
     for f <- OptionRecipe.fields do
       val at = candela.diagnostics.SourcePos("options.pbrt", 1, 1)

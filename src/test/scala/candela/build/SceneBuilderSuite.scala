@@ -227,7 +227,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(SceneTexts.problems(
       closed,
       Dialect.V4
-    ).exists(_.message.contains("must be above `shutteropen`")))
+    ).exists(_.message.contains("must close after it opens")))
 
   test("a crop window without a pixel is an error"):
     val empty = RenderSettings(region = RenderRegion.Window(0.5f, 0.5f, 0f, 1f))

@@ -48,6 +48,39 @@ class PicturesSuite extends AnyFunSuite:
         val found = SceneTexts.mean(t, d).g
         assert(Math.abs(found - mean) < 0.05f * mean, s"$from, $option as $d: $found")
 
+  test("a shutter of v2 and v3 that v4 refuses keeps its image"):
+    for
+      from <- Seq(Dialect.V2, Dialect.V3)
+      (open, close) <- Seq(0f -> 0f, 0.5f -> 0.5f, 1f -> 0f, 7e6f -> 7e6f, 0.25f -> 0.75f)
+    do
+      val shutter = s"shutteropen\" $open \"float shutterclose\" $close"
+      val text = "LookAt 3 1 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 30 " +
+        s"\"float $shutter Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 " +
+        "WorldBegin LightSource \"infinite\" Shape \"sphere\" WorldEnd"
+      val made = converted(text, from, Dialect.V4).scene
+      val written = Descriptions.read(Descriptions.text(made), Path.of(""), Some(Dialect.V4))
+      val (before, after) = (SceneTexts.mean(text, from), SceneTexts.mean(written))
+      assert((before - after).largest < 0.02f * before.max, s"$from, $shutter: $before, $after")
+
+  test("v2's integrators of direct light stay direct in v3 and v4"):
+    val corner =
+      "Translate 0 0 4 LightSource \"point\" \"point from\" [1 1 -3] \"color I\" [9 9 9]\n" +
+        "Material \"matte\" \"color Kd\" [.8 .8 .8] Shape \"disk\" \"float radius\" 9 " +
+        "Rotate 70 0 1 0 Translate 0 0 3 Shape \"disk\" \"float radius\" 9"
+    for
+      integrator <- Seq("diffuseprt", "dipolesubsurface", "glossyprt\" \"color Kd\" [.2 .4 .6")
+      to <- Seq(Dialect.V3, Dialect.V4)
+      // v4's plastic is another
+      if to == Dialect.V3 || !integrator.startsWith("glossyprt")
+    do
+      val name = if integrator.contains('[') then s"$integrator]" else s"$integrator\""
+      val text = "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 " +
+        s"SurfaceIntegrator \"$name WorldBegin\n$corner WorldEnd"
+      val made = converted(text, Dialect.V2, to)
+      val (before, after) = (SceneTexts.mean(text, Dialect.V2), SceneTexts.mean(made.scene))
+      assert((before - after).largest < 0.01f * before.max, s"$name, $to: $before, $after")
+      assert(made.warnings.forall(!_.message.contains("the same image")), made.warnings)
+
   test("colours that pbrt-v4 refuses are clamped, with a warning at their place"):
     val bright = "Material \"diffuse\" \"rgb reflectance\" [1.5 .5 -2] Shape \"sphere\" " +
       "LightSource \"infinite\" \"rgb L\" [3 -1 2]"

@@ -223,6 +223,18 @@ class MitsubaRulesSuite extends AnyFunSuite:
         assert(warnings(kind, "rr_depth", depth).exists(_.pos.isDefined), kind)
       assert(warnings(kind, "max_depth", -1).isEmpty && warnings(kind, "rr_depth", 1).isEmpty)
 
+  test("the shutter of a sensor neither brightens nor darkens, and may open for an instant"):
+    for times <- Seq("0" -> "1", "0.5" -> "0.9", "0.5" -> "0.5") do
+      val (open, close) = times
+      val found = means(
+        s"""$Path6${sensor()}<emitter type="constant"/>""".replace(
+          "<film",
+          s"""<float name="shutter_open" value="$open"/>
+             <float name="shutter_close" value="$close"/><film"""
+        )
+      )
+      isNear(found, 1, 1, 1)(1e-3)
+
   test("an environment map may have one row or two"):
     for (height, right) <- Seq(1 -> 0.25, 2 -> 0.5) do
       val rows = Array.fill(3)(0.25f) ++ Array.fill(3 * (height - 1))(0.75f)

@@ -31,18 +31,20 @@ abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect
 
   protected def shutter()(using site: Site): Shutter =
     val (from, to) = (open(), close())
-    if site.dialect == Dialect.V4 && !(to > from) then
-      site.error(
-        Code.CorrectedValue,
-        s"`shutterclose` must be above `shutteropen` in v4, found $to and $from"
-      )
-    if to < from then
+    // Mitsuba, too, renders an instant
+    val isRefused = site.rules.dialect match
+      case Dialect.V4 => !(to > from)
+      case Dialect.Mitsuba => to < from
+      case _ => false
+    if isRefused then
+      val message = s"the shutter must close after it opens, found $to and $from"
+      site.error(Code.ParameterValue, message)
+    else if to < from then
       site.warn(
         Code.CorrectedValue,
         s"`shutterclose` $to is before `shutteropen` $from; swapping them"
       )
-      Shutter(to, from)
-    else Shutter(from, to)
+    Shutter(Math.min(from, to), Math.max(from, to))
 
 private[build] object ScreenWindow:
 

@@ -159,7 +159,8 @@ object GlossyPrtRecipe
     color("Kd", "diffuse reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f))
   private val ks =
     color("Ks", "glossy reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f))
-  private val roughness = float("roughness", "roughness of all surfaces")(0.1f)
+  private val roughness =
+    float("roughness", "roughness of all surfaces", range = Range.nonNegative)(0.1f)
   protected def finish(using site: Site): Material => Material =
     val plastic =
       PlasticRecipe.second(ConstantRgb(kd()), ConstantRgb(ks()), ConstantFloat(roughness()))

@@ -108,14 +108,16 @@ object CoatedConductorRecipe
 
   /** Roughness of one of the two interfaces. */
   private final class Side(name: String):
-    private val isotropic = floatTexture(s"$name.roughness", s"$name roughness; 0: smooth")(0f)
+    private val isotropic =
+      floatTexture(s"$name.roughness", s"$name roughness; 0: smooth", range = Range.nonNegative)(0f)
     private val u = along("u")
     private val v = along("v")
     private def along(axis: String) =
       floatTexture(
         s"$name.${axis}roughness",
         s"$name roughness along $axis",
-        shown = s"$name.roughness"
+        shown = s"$name.roughness",
+        range = Range.nonNegative
       )(0f)
     def apply()(using Site): Roughness =
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha

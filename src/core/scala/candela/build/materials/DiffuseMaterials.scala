@@ -9,7 +9,12 @@ import candela.textures.RgbTexture
 object MatteRecipe
     extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
-  private val sigma = floatTexture("sigma", "standard deviation of facet angles, degrees")(0f)
+  private val sigma =
+    floatTexture(
+      "sigma",
+      "standard deviation of facet angles, degrees",
+      range = Range(0f, 90f).limited
+    )(0f)
   protected def create()(using Site): Material = MatteMaterial(kd(), sigma())
 
 object DiffuseRecipe

@@ -22,15 +22,16 @@ private trait GlossedFields extends Fields:
 object PhongRecipe
     extends MaterialRecipe("phong", "modified Phong model", onlyMitsuba)
     with GlossedFields:
-  private val exponent = floatTexture("exponent", "exponent of the glossy lobe")(30f)
+  private val exponent =
+    floatTexture("exponent", "exponent of the glossy lobe", range = Range.nonNegative)(30f)
   protected def create()(using Site): Material =
     PhongMaterial(diffuse(), specular(), exponent(), conserves())
 
 object WardRecipe
     extends MaterialRecipe("ward", "Ward's anisotropic model", onlyMitsuba)
     with GlossedFields:
-  private val u = floatTexture("uroughness", "roughness along u")(0.1f)
-  private val v = floatTexture("vroughness", "roughness along v")(0.1f)
+  private val u = floatTexture("uroughness", "roughness along u", range = Range.nonNegative)(0.1f)
+  private val v = floatTexture("vroughness", "roughness along v", range = Range.nonNegative)(0.1f)
   private val variant =
     oneOf("variant", "normalisation", Seq("ward", "ward-duer", "balanced"))("balanced")
   protected def create()(using Site): Material =
@@ -44,7 +45,12 @@ object RoughDiffuseRecipe
     extends MaterialRecipe("roughdiffuse", "the model of Oren and Nayar in full", onlyMitsuba):
   private val reflectance =
     rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
-  private val alpha = floatTexture("roughness", "root mean square slope of the facets")(0.2f)
+  private val alpha =
+    floatTexture(
+      "roughness",
+      "root mean square slope of the facets",
+      range = Range.nonNegative
+    )(0.2f)
   private val isFast = bool("fast", "use the approximation without interreflection")(false)
   protected def create()(using Site): Material =
     RoughDiffuseMaterial(reflectance(), alpha(), isFast())

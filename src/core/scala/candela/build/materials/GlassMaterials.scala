@@ -18,8 +18,20 @@ object GlassRecipe
     "eta", "index of refraction", onlyV3, shown = "index", range = Indices.range
   )(1.5f)
   private val index = floatTexture("index", "index of refraction", range = Indices.range)(1.5f)
-  private val u = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
-  private val v = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
+  private val u =
+    floatTexture(
+      "uroughness",
+      "roughness along u; 0: smooth",
+      onlyV3,
+      range = Range.nonNegative
+    )(0f)
+  private val v =
+    floatTexture(
+      "vroughness",
+      "roughness along v; 0: smooth",
+      onlyV3,
+      range = Range.nonNegative
+    )(0f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
   protected def create()(using site: Site): Material =

@@ -56,8 +56,8 @@ object SubstrateRecipe extends MaterialRecipe(
     ):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val ks = rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.gray(0.5f))
-  private val u = floatTexture("uroughness", "roughness along u")(0.1f)
-  private val v = floatTexture("vroughness", "roughness along v")(0.1f)
+  private val u = floatTexture("uroughness", "roughness along u", range = Range.nonNegative)(0.1f)
+  private val v = floatTexture("vroughness", "roughness along v", range = Range.nonNegative)(0.1f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
   protected def create()(using site: Site): Material =
@@ -74,7 +74,8 @@ abstract class DisneyFields(name: String, meaning: String, dialects: Set[Dialect
   private val metallic =
     floatTexture("metallic", "metallic weight; 0: dielectric, 1: conductor")(0f)
   private val eta = floatTexture("eta", "index of refraction", range = Indices.range)(1.5f)
-  private val roughness = floatTexture("roughness", "surface roughness")(0.5f)
+  private val roughness =
+    floatTexture("roughness", "surface roughness", range = Range.nonNegative)(0.5f)
   private val tint =
     floatTexture("speculartint", "tint of the specular lobe; 0: white, 1: hue of the surface")(0f)
   private val anisotropic = floatTexture("anisotropic", "anisotropy of the specular lobe")(0f)

@@ -13,7 +13,11 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val color = rgbTexture("color", "base colour")(Rgb.White)
   private val metallic = floatTexture("metallic", "0: dielectric, 1: metal")(1f)
   private val roughness =
-    floatTexture("roughness", "roughness; the slopes' width is its square")(1f)
+    floatTexture(
+      "roughness",
+      "roughness; the slopes' width is its square",
+      range = Range.nonNegative
+    )(1f)
   private val eta = float("eta", "index of refraction", range = Range.atLeast(0f).deferred)(1.5f)
   private val specular = floatTexture("specular", "strength of the dielectric's reflection")(1f)
   private val specularColor = rgbTexture(
@@ -25,11 +29,13 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
     floatTexture("transmission", "transmitted fraction of what is not reflected")(0f)
   private val thin = bool("thin", "transmit without refraction, as a thin wall")(true)
   private val coat = floatTexture("clearcoat", "strength of the clear coat")(0f)
-  private val coatRoughness = floatTexture("clearcoatroughness", "roughness of the clear coat")(0f)
+  private val coatRoughness =
+    floatTexture("clearcoatroughness", "roughness of the clear coat", range = Range.nonNegative)(0f)
   private val coatNormals =
     NormalMapFields("clearcoat", "clear coat's normal map", onlyGltf)
   private val sheen = rgbTexture("sheencolor", "colour of the sheen")(Rgb.Black)
-  private val sheenRoughness = floatTexture("sheenroughness", "roughness of the sheen")(0f)
+  private val sheenRoughness =
+    floatTexture("sheenroughness", "roughness of the sheen", range = Range.nonNegative)(0f)
   private val anisotropy = floatTexture("anisotropy", "stretch of the highlights")(0f)
   private val anisotropyRotation =
     float("anisotropyrotation", "angle of that stretch from the tangent", unit = "radians")(0f)

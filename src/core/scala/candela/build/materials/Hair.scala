@@ -32,8 +32,10 @@ object HairRecipe
       shown = "none"
     )(0f)
   private val eta = floatTexture("eta", "index of refraction", range = Indices.range)(1.55f)
-  private val betaM = floatTexture("beta_m", "longitudinal roughness, 0 to 1")(0.3f)
-  private val betaN = floatTexture("beta_n", "azimuthal roughness, 0 to 1")(0.3f)
+  private val betaM =
+    floatTexture("beta_m", "longitudinal roughness", range = Range(0f, 1f).limited)(0.3f)
+  private val betaN =
+    floatTexture("beta_n", "azimuthal roughness", range = Range(0f, 1f).limited)(0.3f)
   private val alpha = floatTexture("alpha", "tilt of the cuticle scales", unit = "degrees")(2f)
 
   protected def create()(using site: Site): Material =

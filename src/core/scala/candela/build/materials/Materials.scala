@@ -223,7 +223,8 @@ abstract class RoughRecipe(
     default: Float,
     across: Set[Dialect] = sinceV3
 ) extends MaterialRecipe(name, meaning, dialects):
-  private val isotropic = floatTexture("roughness", "surface roughness; 0: smooth")(default)
+  private val isotropic =
+    floatTexture("roughness", "surface roughness; 0: smooth", range = Range.nonNegative)(default)
   private val u = alongAxis("u")
   private val v = alongAxis("v")
   private val distribution =
@@ -236,7 +237,8 @@ abstract class RoughRecipe(
       s"${axis}roughness",
       s"roughness along $axis",
       across,
-      shown = "roughness"
+      shown = "roughness",
+      range = Range.nonNegative
     )(default)
 
   protected def roughness(smoothAtZero: Boolean = false)(using site: Site): Roughness =

@@ -32,13 +32,34 @@ abstract class BssrdfRecipe(
   protected val index: Field[FloatTexture] =
     floatTexture("index", "index of refraction", onlyV2, range = Indices.range)(1.3f)
   private val isotropic =
-    floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
-  private val alongV3 = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
-  private val acrossV3 = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
+    floatTexture(
+      "roughness",
+      "roughness along u and v; 0: smooth",
+      onlyV4,
+      range = Range.nonNegative
+    )(0f)
+  private val alongV3 =
+    floatTexture(
+      "uroughness",
+      "roughness along u; 0: smooth",
+      onlyV3,
+      range = Range.nonNegative
+    )(0f)
+  private val acrossV3 =
+    floatTexture(
+      "vroughness",
+      "roughness along v; 0: smooth",
+      onlyV3,
+      range = Range.nonNegative
+    )(0f)
   private val alongV4 =
-    floatTexture("uroughness", "roughness along u", onlyV4, shown = "roughness")(0f)
+    floatTexture(
+      "uroughness", "roughness along u", onlyV4, shown = "roughness", range = Range.nonNegative
+    )(0f)
   private val acrossV4 =
-    floatTexture("vroughness", "roughness along v", onlyV4, shown = "roughness")(0f)
+    floatTexture(
+      "vroughness", "roughness along v", onlyV4, shown = "roughness", range = Range.nonNegative
+    )(0f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
   protected val g: Field[Float] = float(

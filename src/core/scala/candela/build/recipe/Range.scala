@@ -110,6 +110,9 @@ object Range:
   /** Above 0, and infinity. */
   val endless: Range = Range(0f, Float.PositiveInfinity, opensLow = true)
 
+  /** Roughness and the like; what is negative is 0. */
+  val nonNegative: Range = Range(0f, Largest).limited
+
   def atLeast(least: Float): Range = Range(least, Largest)
   def above(least: Float): Range = Range(least, Largest, opensLow = true)
   def exclusive(least: Float, most: Float): Range =

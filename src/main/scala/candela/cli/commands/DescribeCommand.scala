@@ -200,7 +200,7 @@ final class Described(requested: Set[Dialect]):
   private def range(field: Field[?], recipe: Recipe[?]): String =
     val isColor = field.typeName.startsWith("spectrum")
     val text = if isColor then "" else byDialect(field, recipe)(d => field.range(d.base).text)
-    if text.isEmpty then "" else s"; $text"
+    if text.isEmpty then "" else s"; ${text.replace("at least ", "≥ ").replace("from ", "")}"
 
   private def meaning(field: Field[?], recipe: Recipe[?]): String =
     val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"
