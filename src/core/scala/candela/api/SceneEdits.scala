@@ -120,7 +120,13 @@ private[api] object SceneEdits:
       if t.name == name then t.copy(texture = withParams(t.texture, params)) else t)
 
   private def withParams(to: Declaration, params: Vector[Param]): Declaration =
-    to.copy(params = to.params.filterNot(old => params.exists(_.name == old.name)) ++ params)
+    val replaced = params.map(_.name).flatMap(name => name +: axes(name)).toSet
+    to.copy(params = to.params.filterNot(old => replaced(old.name)) ++ params)
+
+  /** A roughness replaces those along u and v, which would go before it. */
+  private def axes(name: String): Vector[String] =
+    if !name.endsWith("roughness") then Vector.empty
+    else Vector("u", "v").map(axis => s"${name.stripSuffix("roughness")}${axis}roughness")
 
   private def fail(
       code: Code,

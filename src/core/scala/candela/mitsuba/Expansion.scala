@@ -13,17 +13,19 @@ import scala.collection.mutable
   * @param folders  where to look for files, first those of `path`
   * @param sources  the scene file and its includes
   * @param parameters names of values that it has
+  * @param problems references to values that it lacks; elements with them are left out
   */
 final class Expanded(
     val elements: Vector[Element],
     val aliases: Map[String, String],
     val folders: Vector[Path],
     val sources: Vector[Path],
-    val parameters: Set[String]
+    val parameters: Set[String],
+    val problems: Vector[Problem]
 ):
   /** The same of some of its elements. */
   def of(elements: Vector[Element]): Expanded =
-    Expanded(elements, aliases, folders, sources, parameters)
+    Expanded(elements, aliases, folders, sources, parameters, problems)
 
 /** Expands one scene file.
   *
@@ -48,6 +50,7 @@ final class Expansion(
   private var pathsOfIncludes = Vector.empty[Path]
   private val sources = mutable.ArrayBuffer.from(Option.when(parsed.isEmpty)(file))
   private var remainingLength = Expansion.MaxTextLength
+  private val problems = mutable.ArrayBuffer.empty[Problem]
 
   def result(): Expanded =
     val elements = parsed match
@@ -64,7 +67,14 @@ final class Expansion(
         s"the scene has no parameter `$$$name`",
         help
       ))
-    Expanded(elements, aliases.toMap, folders, sources.toVector, referenced.toSet)
+    Expanded(
+      elements,
+      aliases.toMap,
+      folders,
+      sources.toVector,
+      referenced.toSet,
+      problems.toVector
+    )
 
   private def folders: Vector[Path] = (paths :+ folder.path) ++ pathsOfIncludes
 
@@ -102,9 +112,7 @@ final class Expansion(
           val e = substituted(child)
           aliases(required(e, "as")) = required(e, "id")
           Vector.empty
-        case _ =>
-          val e = substituted(child)
-          Vector(oldNames.fold(e)(_.upgraded(e)))
+        case _ => defined(child).map(e => oldNames.fold(e)(_.upgraded(e)))
 
   private def included(e: Element, files: List[InputFile]): Vector[Element] =
     val name = required(e, "filename")
@@ -147,38 +155,50 @@ final class Expansion(
       s"<${e.tag}> must have the attribute `$attribute`"
     ))
 
+  /** The element, if it needs no value that is undefined, without children that do. */
+  private def defined(e: Element): Option[Element] =
+    val missing = undefinedIn(e)
+    problems ++= missing
+    Option.when(missing.isEmpty)(withValues(e, e.children.flatMap(defined)))
+
   private def substituted(e: Element): Element =
+    for problem <- undefinedIn(e).headOption do throw SceneError(problem)
+    withValues(e, e.children.map(substituted))
+
+  private def namesIn(text: String) =
+    if !text.contains('$') then Vector.empty
+    else Expansion.Variable.findAllMatchIn(text).map(_.group(1)).toVector
+
+  private def undefinedIn(e: Element): Vector[Problem] =
+    val names = e.attributes.values.toVector.flatMap(namesIn)
+    referenced ++= names
+    names.filterNot(values.contains).distinct.map(undefined(_, e.pos))
+
+  private def withValues(e: Element, children: Vector[Element]): Element =
+    def text(original: String) =
+      Expansion.Variable.replaceAllIn(original, m => value(m.group(1), e.pos))
     val attributes =
       if !e.attributes.values.exists(_.contains('$')) then e.attributes
-      else e.attributes.map((name, text) => name -> substituted(text, e.pos))
-    e.copy(attributes = attributes, children = e.children.map(substituted))
+      else e.attributes.map((name, original) => name -> text(original))
+    e.copy(attributes = attributes, children = children)
 
-  private def substituted(text: String, at: SourcePos): String =
-    Expansion.Variable.replaceAllIn(
-      text,
-      variable =>
-        val name = variable.group(1)
-        referenced += name
-        val value = values.getOrElse(
-          name,
-          throw SceneError(
-            Problem.error(
-              Code.SceneParameter,
-              at,
-              s"undefined parameter `$$$name`",
-              Suggest.nearest(name, values.keys).map(n => s"did you mean `$$$n`?").orElse(
-                Some(s"""write <default name="$name" value="…"/> before it, or use -D$name=…""")
-              )
-            )
-          )
-        )
-        remainingLength -= value.length
-        if remainingLength < 0 then
-          val message =
-            s"values of parameters add up to more than ${Expansion.MaxTextLength} characters"
-          throw SceneError(Problem.error(Code.TooLarge, at, message))
-        java.util.regex.Matcher.quoteReplacement(value)
+  private def undefined(name: String, at: SourcePos): Problem =
+    val near = Suggest.nearest(name, values.keys).map(n => s"did you mean `$$$n`?")
+    val help = s"""write <default name="$name" value="…"/> before it, or use -D$name=…"""
+    Problem.error(
+      Code.SceneParameter,
+      at,
+      s"undefined parameter `$$$name`",
+      near.orElse(Some(help))
     )
+
+  private def value(name: String, at: SourcePos): String =
+    remainingLength -= values(name).length
+    if remainingLength < 0 then
+      val message =
+        s"values of parameters add up to more than ${Expansion.MaxTextLength} characters"
+      throw SceneError(Problem.error(Code.TooLarge, at, message))
+    java.util.regex.Matcher.quoteReplacement(values(name))
 
   private def fail(
       code: Code,

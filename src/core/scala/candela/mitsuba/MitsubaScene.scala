@@ -57,7 +57,8 @@ object MitsubaScene:
   ): SceneDescription =
     val scene = Translation(session, file).result()
     val (errors, warnings) =
-      excerpted(session.problems, file, text).partition(_.severity == Severity.Error)
+      excerpted(expanded.problems ++ session.problems, file, text)
+        .partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
       errors = errors,

@@ -11,7 +11,10 @@ private[mitsuba] final case class Form(
     params: Seq[Param],
     toWorld: Transform,
     isReversed: Boolean
-)
+):
+  /** Not seen from within. */
+  def culled(in: Properties): Form =
+    copy(params = params :+ Param.bool("cullbackfaces", in.pos, true))
 
 /** Translates shapes that only Mitsuba 0.6 has.
   *

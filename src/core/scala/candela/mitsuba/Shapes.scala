@@ -108,9 +108,15 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         (s, MaterialRef.Inline(s.material))
     val isHair = surface.material.name == "hair"
     val forms = in.plugin.name match
-      case "bsplinecurve" if isHair => fibres(in)
+      case "bsplinecurve" if isHair => ofHair(in)
       case "hair" => oldShapes.hair(in, suitsRibbons = isHair)
+      case "linearcurve" if isHair =>
+        curves(in, minPoints = 2, in.flag("flip_normals", false))(Tubes.capsules)
+          .map(_.culled(in)).toVector
       case _ => form(in, attributes).toVector
+    def ribbon =
+      val m = surface.material
+      MaterialRef.Inline(m.copy(params = m.params :+ Param.bool("ribbon", in.pos, true)))
     for Form(name, params, toWorld, isReversed) <- forms yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
@@ -118,7 +124,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         session.declare("Shape", name, in.pos, params ++ alpha),
         GraphicsState.constant(toWorld),
         isReversed,
-        material,
+        if isHair && name == "curve" then ribbon else material,
         emitter.flatMap(emitters.area),
         medium("interior"),
         medium("exterior"),
@@ -256,19 +262,27 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     read(in, minPoints).map: curvePoints =>
       // Through an open end, the far side is not seen from within
       val isOpen = minPoints == 4 && curvePoints.exists(_.isOpen)
-      val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.pos, true))
-      Form(
+      val form = Form(
         "trianglemesh",
-        params(tessellate(curvePoints), in) ++ culls,
+        params(tessellate(curvePoints), in),
         curvePoints.head.placement,
         isFlipped
       )
+      if isOpen then form.culled(in) else form
 
-  /** pbrt's curves: light that is transmitted does not meet the far side. */
-  private def fibres(in: Properties): Vector[Form] =
+  /** Tubes; or pbrt's curves, if there are many. Light that is transmitted does not meet the far
+    * side of either.
+    */
+  private def ofHair(in: Properties): Vector[Form] =
     in.ignore("flip_normals")
-    for curve <- read(in, 4).toVector.flatten; fibre <- Fibres.of(curve)
-    yield Form("curve", fibre.params(in.pos), curve.placement, isReversed = false)
+    val curves = read(in, 4).toVector.flatten
+    if curves.map(_.points.size - 3).sum <= Shapes.MaxRoundHair then
+      curves.headOption.toVector.map: first =>
+        val mesh = params(Tubes.splines(curves), in)
+        Form("trianglemesh", mesh, first.placement, isReversed = false).culled(in)
+    else
+      for curve <- curves; fibre <- Fibres.of(curve)
+      yield Form("curve", fibre.params(in.pos), curve.placement, isReversed = false)
 
   private def meshForm(
       in: Properties,
@@ -302,6 +316,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       Option.when(uvs.nonEmpty)(Param.floats(ParamType.Point2, "uv", in.pos, uvs))
 
 object Shapes:
+  /** Segments of hair that become tubes: with more, tubes are coarser. */
+  private val MaxRoundHair = 1000
 
   /** A frame about a unit vector.
     *

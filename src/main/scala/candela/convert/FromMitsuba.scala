@@ -114,6 +114,14 @@ object FromMitsuba:
         case "scatteringlayer" =>
           warn(d, "\"hk\" is approximated by pbrt-v4's \"diffusetransmission\"")
           d.copy(name = "diffusetransmission", params = bumpsOf(d))
+        case "hair" =>
+          warn(
+            d,
+            if d.param("ribbon").isDefined then
+              "highlights of pbrt's hair are on the side away from the light"
+            else "pbrt has hair on curves alone, by their v"
+          )
+          withoutParams(d, "", "ribbon")
         case "thindielectric" => withoutParams(d, "using 1", "reflectance", "transmittance")
         case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
         case "principled" =>

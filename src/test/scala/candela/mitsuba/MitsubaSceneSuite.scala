@@ -2,7 +2,7 @@ package candela.mitsuba
 
 import candela.diagnostics.SceneError
 import candela.io.InputFile
-import candela.scenefile.{MaterialRef, Parser, SceneDescription}
+import candela.scenefile.{MaterialRef, Parser, SceneDescription, ShapeDescription}
 
 import java.io.{ByteArrayOutputStream, PrintStream}
 import java.nio.charset.Charset
@@ -86,7 +86,16 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(width(read(body)) == Vector(30))
     assert(width(read(body, "w" -> "7")) == Vector(7))
     assert(fatal(body, "v" -> "7") == "the scene has no parameter `$v` (did you mean `w`?)")
-    assert(fatal("<shape type=\"$kind\"/>").startsWith("undefined parameter `$kind`"))
+
+  test("what needs an undefined value is left out, and the rest is checked"):
+    val told = problems(
+      "<shape type=\"$kind\"/><bsdf type=\"no-such\" id=\"$name\"/>" +
+        "<shape type=\"sphere\"><float name=\"radius\" value=\"$r$s\"/></shape>" +
+        "<shape type=\"spher\"/>"
+    )
+    val undefined = Seq("kind", "name", "r", "s").map(n => s"undefined parameter `$$$n`")
+    assert(undefined.forall(u => told.exists(_.contains(u))), told)
+    assert(told.exists(_.contains("spher")) && !told.exists(_.contains("no-such")), told)
 
   test("includes see the parameters, and are refused in circles"):
     val other = """<scene version="3.0.0"><shape type="$kind"/></scene>"""
@@ -336,27 +345,37 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(problems(body("vertex_colors", "ply")) ==
       Vector(s"$missing (did you mean `vertex_color`?)"))
 
-  test("hair on splines becomes pbrt's curves, one by one; other curves are tubes"):
-    def scene(bsdf: String, points: String*) =
+  test("curves are tubes; of much hair, pbrt's curves, one by one"):
+    def material(s: ShapeDescription) = s.material match
+      case MaterialRef.Inline(d) => d
+      case other => fail(other.toString)
+    def scene(bsdf: String, points: Seq[String], kind: String = "bsplinecurve") =
       val file = Files.createTempFile("candela", ".txt")
       try
         Files.writeString(file, points.mkString("\n")): Unit
         read(
-          s"$Sensor<shape type=\"bsplinecurve\"><string name=\"filename\" value=\"$file\"/>" +
+          s"$Sensor<shape type=\"$kind\"><string name=\"filename\" value=\"$file\"/>" +
             s"<bsdf type=\"$bsdf\"/></shape>"
         )
       finally Files.delete(file)
     val even = Seq("0 0 0 .4", "1 0 0 .3", "2 0 0 .2", "3 0 0 .1", "4 1 0 0", "")
     val bulge = Seq("0 0 0 .1", "1 0 0 .1", "2 0 0 .3", "3 0 0 .1", "4 1 0 .1")
-    val fibres = scene("hair", even ++ bulge*).shapes.map(_.shape)
-    assert(fibres.map(_.name) == Vector("curve", "curve", "curve"))
-    assert(fibres.map(_.param("P").get.floats.length / 3) == Vector(5, 4, 4))
+    val long = "" +: Seq.tabulate(1000)(i => s"$i 0 0 .1")
+    val hair = scene("hair", even ++ bulge ++ long).shapes
+    val fibres = hair.map(_.shape)
+    assert(fibres.map(_.name).distinct == Vector("curve") && fibres.size > 3)
+    assert(hair.forall(s => material(s).param("ribbon").exists(_.bools.head)))
+    assert(fibres.take(3).map(_.param("P").get.floats.length / 3) == Vector(5, 4, 4))
     val widths = fibres.head.params.filter(_.name.startsWith("width")).map(_.floats.head)
     assert(widths.zip(Seq(0.6f, 0.2f)).forall((a, b) => Math.abs(a - b) < 1e-6f), widths)
-    val tubes = scene("diffuse", even ++ bulge*).shapes.map(_.shape)
-    assert(tubes.map(_.name) == Vector("trianglemesh"))
-    val culls = tubes.head.param("cullbackfaces").exists(_.bools.head)
-    assert(culls)
+    for
+      (bsdf, kind) <-
+        Seq("diffuse" -> "bsplinecurve", "hair" -> "bsplinecurve", "hair" -> "linearcurve")
+    do
+      val tubes = scene(bsdf, even ++ bulge, kind).shapes
+      assert(tubes.map(_.shape.name) == Vector("trianglemesh"), bsdf)
+      assert(tubes.head.shape.param("cullbackfaces").exists(_.bools.head), s"$bsdf, $kind")
+      assert(material(tubes.head).param("ribbon").isEmpty)
 
   test("a heterogeneous medium of constant extinction fills its volume's cube"):
     def medium(volume: String) =

@@ -13,6 +13,7 @@ import candela.textures.{FloatTexture, RgbTexture, Varying}
   * (Mp), an azimuthal term (Np), and an attenuation (Ap).
   *
   * @param h      offset of the intersection across the width, −1 to 1
+  * @param gammaO angle between the outgoing direction and the normal, whose sine is `h`
   * @param eta    index of refraction of the hair
   * @param sigmaA absorption coefficient inside, per unit of the hair's radius; ≥ 0
   * @param shape  roughnesses and scale tilt
@@ -21,9 +22,14 @@ import candela.textures.{FloatTexture, RgbTexture, Varying}
   * al., "An Energy-Conserving Hair Reflectance Model", EGSR 2011; Chiang et al., "A Practical and
   * Controllable Hair and Fur Model for Production Path Tracing", EG 2016.
   */
-final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bsdf:
+final class Hair private[composite] (
+    h: Float,
+    gammaO: Float,
+    eta: Float,
+    sigmaA: Rgb,
+    shape: HairShape
+) extends Bsdf:
   import Hair.*
-  private val gammaO = Math.asin(clamp(h, -1f, 1f).toDouble).toFloat
 
   /** Sine and cosine of the longitudinal angle, rotated by the scale tilt for lobe `p`. */
   private def tiltedSin(sinO: Float, cosO: Float, p: Int): Float = p match
@@ -144,10 +150,16 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       if weight.isFinite then BsdfSample(wi, weight, density, isSpecular = false)
       else BsdfSample.Absorbed
 
-  def flags: BsdfFlags =
-    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.NonReciprocal | BsdfFlags.Choosing
+  def flags: BsdfFlags = Hair.Flags
 
 object Hair:
+  /** Of a hair that is hit from outside. */
+  def apply(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape): Hair =
+    new Hair(h, Math.asin(clamp(h, -1f, 1f).toDouble).toFloat, eta, sigmaA, shape)
+
+  private[composite] val Flags: BsdfFlags =
+    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.NonReciprocal | BsdfFlags.Choosing
+
   /** R, TT, TRT, and one lobe for the rest. */
   private inline val Lobes = 4
 
@@ -169,6 +181,24 @@ object Hair:
     // I0(a) e^{−b} / (2v sinh(1/v)), with e^{1/v} factored out of both
     val scale = 1.0 / (v * -Math.expm1(-2.0 / v))
     (Bessel.scaledI0(a) * Math.exp(a - b - 1.0 / v) * scale).toFloat
+
+/** [[Hair]] on a surface that is round, as in Mitsuba: the offset is that of the direction across
+  * the normal. The local y axis is the direction of the fibre.
+  */
+final class RoundHair(eta: Float, sigmaA: Rgb, shape: HairShape) extends Bsdf:
+  private def hair(wo: Vec3): Hair =
+    val gammaO = -Math.atan2(wo.x.toDouble, wo.z.toDouble).toFloat
+    new Hair(sin(gammaO), gammaO, eta, sigmaA, shape)
+
+  private def turned(w: Vec3): Vec3 = Vec3(w.y, w.x, w.z)
+
+  def f(wo: Vec3, wi: Vec3): Rgb = hair(wo).f(turned(wo), turned(wi))
+  def pdf(wo: Vec3, wi: Vec3): Float = hair(wo).pdf(turned(wo), turned(wi))
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val s = hair(wo).sample(turned(wo), choice, u1, u2)
+    if s eq BsdfSample.Absorbed then s
+    else BsdfSample(turned(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
+  def flags: BsdfFlags = Hair.Flags
 
 /** Roughness and scale tilt of a hair. Precomputed where they are constant.
   *
@@ -268,8 +298,21 @@ object Pigment:
     val fit = 5.969f + n * (-0.215f + n * (2.532f + n * (-10.73f + n * (5.574f + n * 0.245f))))
     color.map(c => square(log(Math.max(c, 1e-4f)) / fit))
 
-/** [[Hair]] on a curve, whose v is the offset across its width. */
+/** Where the offset across a hair comes from. */
+enum HairOffset:
+  /** From v of a curve. pbrt's highlights are on the side of the curve that is away from the light.
+    */
+  case Across
+
+  /** As [[Across]], with the highlights on the side of the light. */
+  case Mirrored
+
+  /** From the normal, on any shape: [[RoundHair]]. */
+  case Round
+
+/** [[Hair]] on a curve, or on another shape. */
 final class HairMaterial(
+    offset: HairOffset,
     pigment: Pigment,
     eta: FloatTexture,
     betaM: FloatTexture,
@@ -288,7 +331,11 @@ final class HairMaterial(
     val sigmaA = fixedAbsorption match
       case Some(s) => s
       case None => pigment.absorption(at, betaN(at))
-    Hair(clamp(2f * at.v - 1f, -1f, 1f), eta(at), sigmaA, shape)
+    val h = clamp(2f * at.v - 1f, -1f, 1f)
+    offset match
+      case HairOffset.Across => Hair(h, eta(at), sigmaA, shape)
+      case HairOffset.Mirrored => Hair(-h, eta(at), sigmaA, shape)
+      case HairOffset.Round => RoundHair(eta(at), sigmaA, shape)
 
   override def isAnisotropic: Boolean = true
   override def isDirected: Boolean = true

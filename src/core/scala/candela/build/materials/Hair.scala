@@ -2,9 +2,10 @@ package candela.build.materials
 
 import candela.diagnostics.Code
 import candela.bsdf.Material
-import candela.bsdf.composite.{HairMaterial, Pigment}
+import candela.bsdf.composite.{HairMaterial, HairOffset, Pigment}
 import candela.build.recipe.*
 import candela.color.Rgb
+import candela.scenefile.Dialect
 
 object HairRecipe
     extends MaterialRecipe("hair", "hair fibres, for curves", sinceV3, bumps = false):
@@ -38,8 +39,15 @@ object HairRecipe
     floatTexture("beta_n", "azimuthal roughness", range = Range(0f, 1f).limited)(0.3f)
   private val alpha = floatTexture("alpha", "tilt of the cuticle scales", unit = "degrees")(2f)
 
+  private val ribbon =
+    bool("ribbon", "for pbrt's curves", onlyMitsuba)(false)
+
   protected def create()(using site: Site): Material =
-    HairMaterial(pigment(), eta(), betaM(), betaN(), alpha())
+    val offset =
+      if site.rules.dialect != Dialect.Mitsuba then HairOffset.Across
+      else if ribbon() then HairOffset.Mirrored
+      else HairOffset.Round
+    HairMaterial(offset, pigment(), eta(), betaM(), betaN(), alpha())
 
   private def pigment()(using site: Site): Pigment =
     val byColor = reflectance.given_().orElse(color.given_())

@@ -25,8 +25,9 @@ final class Site(
   /** How the program of this dialect renders. */
   val rules: Rules = resources.rules.getOrElse(Rules.of(dialect))
 
-  /** Is any of these the dialect here? */
-  def speaks(dialects: Set[Dialect]): Boolean = dialects(dialect) || dialects(rules.dialect)
+  /** Is any of these the dialect here? Statements that a program adds are of pbrt-v4 alone. */
+  def speaks(dialects: Set[Dialect]): Boolean =
+    dialects(dialect) || dialects(rules.dialect) && !declaration.dialect.contains(Dialect.V4)
 
   /** How much the scene may use. */
   def allowance: Allowance = resources.allowance

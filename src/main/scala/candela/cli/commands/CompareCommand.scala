@@ -1,17 +1,17 @@
 package candela.cli.commands
 
 import candela.base.Figures
-import candela.diagnostics.{Code, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.{FileName, SceneFolder}
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.cli.files.{FileRegister, InputImages, Output, OutputFiles}
+import candela.cli.files.{FileRegister, ImageParts, InputImages, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
-import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat}
+import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat, WriteOptions}
 import candela.measure.{ErrorLayer, ErrorMap, Flip, HeatMap, ImagePair, Metrics, OwnError}
 
 /** `candela compare`: measures the error of an image, or of each image of a folder, against a
@@ -59,6 +59,9 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     val measured = InputImages.read(image, report)
     CompareCommand.checkParts(image -> measured, reference -> truth)
     CompareCommand.checkParts(reference -> truth, image -> measured)
+    for message <- ImageParts.shared(Vector(image, reference)).left do
+      val warning = Problem(Code.DifferentImages, Severity.Warning, None, message)
+      report.warnings(Vector(warning), all = true)
     val comparison = Comparison(pairOf(measured, truth))
     // The error is that of R, G and B
     val errorSource = if comparison.pair.isColor then ErrorLayer.extract(truth) else truth
@@ -69,8 +72,12 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
   private def write(comparison: Comparison): Unit =
     val difference = compareOptions.difference.map(OutputFiles.path)
     val heatMap = compareOptions.heatMap.map(OutputFiles.path)
+    val window =
+      if compareOptions.crop.isDefined then None
+      else ImageParts.shared(options.files.map(OutputFiles.path)).toOption.flatten
     OutputFiles.writeAll((difference ++ heatMap).toVector): path =>
-      if difference.contains(path) then ImageFiles.write(path, comparison.pair.difference)
+      if difference.contains(path) then
+        ImageFiles.write(path, comparison.pair.difference, options = WriteOptions(window = window))
       else writeHeatMap(comparison.pair, path)
 
   private def writeHeatMap(pair: ImagePair, path: Path): Unit =

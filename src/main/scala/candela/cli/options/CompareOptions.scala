@@ -68,9 +68,14 @@ private[cli] object CompareTable extends OptionRows:
   private def change(o: Options)(f: CompareOptions => CompareOptions): Options =
     o.copy(compare = f(o.compare))
 
+  /** A number, or a percentage of 1. */
+  private val bound: Read[Double] = Read.reads: text =>
+    val number = summon[Read[Double]].reads(text.stripSuffix("%").trim)
+    if text.endsWith("%") then number / 100 else number
+
   private def limit(option: String, figure: String, text: String): Row =
     val side = if option.startsWith("min") then "below" else "above"
-    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $side X")
+    opt[Double](option)(using bound).valueName("X").text(s"exit with 1 if $text is $side X")
       .validate: x =>
         if x >= 0 then success else failure(s"--$option must be at least 0, found `$x`")
       .action: (x, o) =>

@@ -2,8 +2,10 @@ package candela.bsdf.composite
 
 import candela.bsdf.{BsdfLaws, Directions}
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.testing.Draws
+import candela.textures.{ConstantFloat, ConstantRgb}
 
 class HairSuite extends BsdfLaws:
   private val wide = HairShape(0.6f, 0.7f, 2f)
@@ -19,6 +21,35 @@ class HairSuite extends BsdfLaws:
     isNarrow = true,
     isReciprocal = false
   )
+
+  obeysLaws(
+    "round hair",
+    RoundHair(1.55f, Rgb(0.419f, 0.697f, 1.37f), wide),
+    isReciprocal = false
+  )
+
+  test("round hair reflects at its surface as a mirror would, from outside and from within"):
+    // It absorbs all that enters
+    val hair = RoundHair(1.55f, Rgb.gray(1e3f), HairShape(0.05f, 0.05f, 0f))
+    for degrees <- Seq(-70, -20, 0, 45, 110, 160) do
+      val angle = Math.toRadians(degrees)
+      val wo = Vec3(Math.sin(angle).toFloat, 0f, Math.cos(angle).toFloat)
+      val mirrored = Vec3(-wo.x, 0f, wo.z)
+      val wi = hair.sample(wo, 0.5f, 0.5f, 0.5f).wi
+      assert((wi dot mirrored) > 0.99f, s"$degrees: $wi")
+
+  test("highlights are on the side of the light in Mitsuba, on the other in pbrt"):
+    val black = Pigment.Absorption(ConstantRgb(Rgb.gray(1e3f)))
+    def reflected(offset: HairOffset, v: Float) =
+      val width = ConstantFloat(0.1f)
+      val material =
+        HairMaterial(offset, black, ConstantFloat(1.55f), width, width, ConstantFloat(0f))
+      val at = ShadingPoint()
+      at.v = v
+      material.bsdf(at).sample(Vec3.Z, 0.5f, 0.5f, 0.5f).wi.y
+    // A curve's v falls along y: its normal faces the viewer
+    assert(reflected(HairOffset.Across, 0.8f) > 0.5f)
+    assert(reflected(HairOffset.Mirrored, 0.8f) < -0.5f)
 
   /** Light that a hair scatters to `wo` under an even sky, averaged over its width. */
   private def reflected(shape: HairShape, sigmaA: Rgb, wo: Vec3): Rgb =

@@ -6,13 +6,30 @@ import candela.image.{Image, ImageFiles, ImageWindow, WriteOptions}
 import candela.testing.FlatImages.flat
 import candela.testing.TempFolder
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
 class CompareCommandSuite extends AnyFunSuite:
 
   private def run(args: String*): (Int, Captured) = Captured.run("compare" +: args*)
+
+  test("images of different parts of one are not the same: a warning, and an error of average"):
+    TempFolder.use: folder =>
+      def crop(name: String, x: Int) =
+        val file = folder.resolve(name)
+        val window = Some(ImageWindow(x, 0, 8, 4))
+        ImageFiles.write(file, Image.rgb(4, 4), options = WriteOptions(window = window))
+        s"$file"
+      val (left, right, same) = (crop("a.exr", 0), crop("b.exr", 4), crop("c.exr", 0))
+      val mean = folder.resolve("mean.exr")
+      val warned = run(left, right)
+      assert(warned._1 == 0 && warned._2.err.contains("not the same part"), warned._2.err)
+      assert(!run(left, same)._2.err.contains("part"))
+      def average(files: String*) = Captured.run(("average" +: files) ++ Seq("-o", s"$mean")*)
+      assert(average(left, right)._1 == 1 && !Files.exists(mean))
+      assert(average(left, same)._1 == 0)
+      assert(ImageFiles.about(mean)._1.contains(ImageWindow(0, 0, 8, 4)))
 
   test("equal images have no error"):
     TempFolder.use: folder =>

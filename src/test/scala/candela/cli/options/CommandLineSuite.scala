@@ -92,6 +92,8 @@ class CommandLineSuite extends AnyFunSuite:
     ),
     "compare a.exr b.exr" ->
       Options(command = Command.Compare, files = Vector("a.exr", "b.exr")),
+    "compare --max-relmse 1% a.exr b.exr" ->
+      compare(CompareOptions(limits = Vector(Limit("max-relmse", "relative MSE", 0.01)))),
     "compare --max-relmse 0.01 a.exr b.exr" ->
       compare(CompareOptions(limits = Vector(Limit("max-relmse", "relative MSE", 0.01)))),
     "compare a.exr b.exr --crop 8,-16,4,12 --per-channel --channels R,Z" ->
