@@ -24,6 +24,7 @@ object ToV4View:
         val p = s.take(name)
         if p.nonEmpty || time != default then
           s.addFloat(name, time)(using p.fold(s.declaration.pos)(_.pos))
+
   private val projective =
     retain("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
   private val planes = drop("hither", "yon")

@@ -5,7 +5,6 @@ import candela.bsdf.Material
 import candela.bsdf.composite.{HairMaterial, HairOffset, Pigment}
 import candela.build.recipe.*
 import candela.color.Rgb
-import candela.scenefile.Dialect
 
 object HairRecipe
     extends MaterialRecipe("hair", "hair fibres, for curves", sinceV3, bumps = false):
@@ -44,7 +43,7 @@ object HairRecipe
 
   protected def create()(using site: Site): Material =
     val offset =
-      if site.rules.dialect != Dialect.Mitsuba then HairOffset.Across
+      if !site.speaks(onlyMitsuba) then HairOffset.Across
       else if ribbon() then HairOffset.Mirrored
       else HairOffset.Round
     HairMaterial(offset, pigment(), eta(), betaM(), betaN(), alpha())

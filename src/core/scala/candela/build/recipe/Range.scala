@@ -31,9 +31,14 @@ final case class Range(
     isAbove && isBelow || also.contains(x)
 
   /** As text; empty if all numbers are within. */
-  def text: String =
+  def text: String = text("at least", "from ")
+
+  /** As text for tables. */
+  def brief: String = text("≥", "")
+
+  private def text(atLeast: String, from: String): String =
     def n(x: Float) = DefaultText.number(x)
-    val low = s"${if opensLow then "above" else "at least"} ${n(least)}"
+    val low = s"${if opensLow then "above" else atLeast} ${n(least)}"
     val high = s"${if opensHigh then "below" else "at most"} ${n(most)}"
     val words =
       if isWide then ""
@@ -41,7 +46,7 @@ final case class Range(
       else if least <= -Range.Largest then high
       else if opensLow && opensHigh then s"between ${n(least)} and ${n(most)}"
       else if opensLow || opensHigh then s"$low and $high"
-      else s"from ${n(least)} to ${n(most)}"
+      else s"$from${n(least)} to ${n(most)}"
     also.fold(words)(x => s"${n(x)} or $words")
 
   /** The parameter with numbers that its recipe can use; None if it is one, after an error. */

@@ -199,8 +199,8 @@ final class Described(requested: Set[Dialect]):
   /** The numbers that it takes; of colours, which all take the same, none. */
   private def range(field: Field[?], recipe: Recipe[?]): String =
     val isColor = field.typeName.startsWith("spectrum")
-    val text = if isColor then "" else byDialect(field, recipe)(d => field.range(d.base).text)
-    if text.isEmpty then "" else s"; ${text.replace("at least ", "≥ ").replace("from ", "")}"
+    val text = if isColor then "" else byDialect(field, recipe)(d => field.range(d.base).brief)
+    if text.isEmpty then "" else s"; $text"
 
   private def meaning(field: Field[?], recipe: Recipe[?]): String =
     val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"

@@ -9,12 +9,10 @@ private[cli] object ImageParts:
 
   /** The part that all of the files show, if all say so; or why they show different ones. */
   def shared(files: Seq[Path]): Either[String, Option[ImageWindow]] =
-    val windows = files.map(file => ImageFiles.about(file)._1.map(file -> _))
-    val crops = windows.flatten
+    val crops = for file <- files; window <- ImageFiles.about(file)._1 yield file -> window
     crops.find(_._2 != crops.head._2) match
       case Some(other) => Left(s"${text(crops.head)}, ${text(other)}: not the same part")
-      case None =>
-        Right(Option.when(crops.size == windows.size)(crops.map(_._2)).flatMap(_.headOption))
+      case None => Right(crops.headOption.map(_._2).filter(_ => crops.size == files.size))
 
   private def text(crop: (Path, ImageWindow)) =
     val (file, w) = crop
