@@ -41,14 +41,3 @@ class MitsubaEditsSuite extends AnyFunSuite:
     val problem = edited.check(RenderSettings()).get(0)
     assert(problem.message == "unknown material \"roughplastic\"", problem)
     assert(problem.help.get.contains("plastic"))
-
-  test("hair on a curve that an edit adds is pbrt's, brighter on one side"):
-    val black = Parameters().rgb("sigma_a", 100, 100, 100).number("alpha", 0)
-    val curve = Parameters().text("type", "cylinder").number("width", 2)
-      .points("P", Array[Float](-9, 0, 0, -3, 0, 0, 3, 0, 0, 9, 0, 0))
-    val edited = scene("0.1").edit().removeShapes().removeLights()
-      .light("distant", Parameters().point("from", 0, 1, -0.3))
-      .material("hair", black).shape("curve", curve).scene()
-    val image = Using.resource(edited.prepare(RenderSettings(), 2))(_.render(2)).image
-    val (upper, lower) = image.channel("R").splitAt(16 * 6)
-    assert(lower.sum > 10 * upper.sum && lower.sum > 0, s"${upper.sum}, ${lower.sum}")
